@@ -1,0 +1,97 @@
+#include "core/progress.h"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/info.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+
+namespace bn {
+namespace {
+
+constexpr int kMaxThreads = 1024;
+
+}  // namespace
+
+int thread_count(const Execution& execution) {
+  if (execution.threads < 0 || execution.threads > kMaxThreads) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = fmt::format("{} threads", execution.threads),
+                 .where = "threads",
+                 .limit = fmt::format("0..{}, 0 for every core", kMaxThreads),
+                 .remedy = ""});
+  }
+  return execution.threads == 0 ? tbb::info::default_concurrency() : execution.threads;
+}
+
+void check_memory(const Execution& execution, std::uint64_t bytes, std::string_view where) {
+  if (bytes <= execution.memory_limit_bytes) return;
+  constexpr double kMiB = 1024.0 * 1024.0;
+  throw Error({.code = ErrorCode::over_limit,
+               .what = fmt::format("needs {:.0f} MiB of memory", static_cast<double>(bytes) / kMiB),
+               .where = std::string(where),
+               .limit = fmt::format("at most {:.0f} MiB",
+                                    static_cast<double>(execution.memory_limit_bytes) / kMiB),
+               .remedy = "ask for less, or raise the limit with --max-memory"});
+}
+
+void throw_if_stopped(const Execution& execution) {
+  if (execution.stop.stop_requested()) {
+    throw Error({.code = ErrorCode::cancelled, .what = "stopped", .where = "", .limit = "", .remedy = ""});
+  }
+}
+
+void parallel_for(const Execution& execution, std::int64_t count,
+                  const std::function<void(std::int64_t)>& body) {
+  const int threads = thread_count(execution);
+  if (threads == 1 || count <= 1) {
+    for (std::int64_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  // An arena of its own gives exactly `threads` slots, also more than the machine has cores: the
+  // tests rely on it to show that the number changes nothing. Workers beyond the cores come only
+  // where the process-wide limit allows them.
+  static const tbb::global_control allow_more_than_cores(tbb::global_control::max_allowed_parallelism,
+                                                         kMaxThreads);
+  tbb::task_arena arena(threads);
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::int64_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::int64_t>& range) {
+          for (std::int64_t i = range.begin(); i < range.end(); ++i) body(i);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+ProgressMeter::ProgressMeter(const Execution& execution, std::uint64_t total)
+    : report_(execution.progress), total_(std::max<std::uint64_t>(total, 1)) {}
+
+void ProgressMeter::advance(std::uint64_t amount) {
+  if (!report_) return;
+  const std::uint64_t done = done_.fetch_add(amount, std::memory_order_relaxed) + amount;
+  // Two hundred reports are enough for a bar; the lock is taken only for those.
+  constexpr std::uint64_t kReports = 200;
+  const auto notch = [&](std::uint64_t at) {
+    return static_cast<std::uint64_t>(static_cast<double>(at) / static_cast<double>(total_) * kReports);
+  };
+  if (notch(done) == notch(done - amount)) return;
+  const std::lock_guard lock(mutex_);
+  const double share = std::min(1.0, static_cast<double>(done) / static_cast<double>(total_));
+  if (share <= reported_) return;
+  reported_ = share;
+  report_(share);
+}
+
+void ProgressMeter::finish() {
+  if (!report_) return;
+  const std::lock_guard lock(mutex_);
+  if (reported_ >= 1.0) return;
+  reported_ = 1.0;
+  report_(1.0);
+}
+
+}  // namespace bn

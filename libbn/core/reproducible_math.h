@@ -1,0 +1,12 @@
+// Elementary functions whose bits do not depend on the C library: only IEEE additions,
+// multiplications and divisions, in a written order. libm's own results differ in the last place
+// between versions, and one such difference at a rounding boundary would change a baked texture.
+
+#pragma once
+
+namespace bn {
+
+/// e^x for -700 <= x <= 700, within 2 ulp. Below that range 0, above it e^700.
+double reproducible_exp(double x);
+
+}  // namespace bn
