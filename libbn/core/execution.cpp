@@ -30,12 +30,12 @@ int thread_count(const Execution& execution) {
 void check_memory(const Execution& execution, std::uint64_t bytes, std::string_view where) {
   if (bytes <= execution.memory_limit_bytes) return;
   constexpr double kMiB = 1024.0 * 1024.0;
-  throw Error({.code = ErrorCode::over_limit,
-               .what = fmt::format("needs {:.0f} MiB of memory", static_cast<double>(bytes) / kMiB),
-               .where = std::string(where),
-               .limit = fmt::format("at most {:.0f} MiB",
-                                    static_cast<double>(execution.memory_limit_bytes) / kMiB),
-               .remedy = "ask for less, or raise the limit with --max-memory"});
+  throw Error(
+      {.code = ErrorCode::over_limit,
+       .what = fmt::format("needs {:.0f} MiB of memory", static_cast<double>(bytes) / kMiB),
+       .where = std::string(where),
+       .limit = fmt::format("at most {:.0f} MiB", static_cast<double>(execution.memory_limit_bytes) / kMiB),
+       .remedy = "ask for less, or raise the limit with --max-memory"});
 }
 
 void throw_if_stopped(const Execution& execution) {

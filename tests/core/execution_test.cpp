@@ -17,7 +17,8 @@ INSTANTIATE_TEST_SUITE_P(Threads, ParallelFor, testing::Values(1, 2, 3, 7));
 TEST_P(ParallelFor, VisitsEveryIndexOnce) {
   for (const int count : {0, 1, 2, 1000}) {
     std::vector<std::atomic<int>> visits(static_cast<std::size_t>(count));
-    parallel_for({.threads = GetParam()}, count, [&](std::int64_t i) { ++visits[static_cast<std::size_t>(i)]; });
+    parallel_for({.threads = GetParam()}, count,
+                 [&](std::int64_t i) { ++visits[static_cast<std::size_t>(i)]; });
     EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](const auto& v) { return v == 1; })) << count;
   }
 }
@@ -37,7 +38,8 @@ TEST_P(ParallelFor, ProgressIsMonotoneAndEndsAtOne) {
   meter.finish();
   ASSERT_FALSE(reports.empty());
   EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
-  EXPECT_EQ(std::adjacent_find(reports.begin(), reports.end()), reports.end()) << "a share was reported twice";
+  EXPECT_EQ(std::adjacent_find(reports.begin(), reports.end()), reports.end())
+      << "a share was reported twice";
   EXPECT_EQ(reports.back(), 1.0);
   EXPECT_LE(reports.size(), 202u);
 }
