@@ -1,0 +1,95 @@
+#include "retarget/problem.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bn {
+namespace {
+
+constexpr int kMaxRadius = 32;
+constexpr int kMaxMove = 127;
+constexpr std::int32_t kMaxLevel = (1 << 24) - 1;
+constexpr std::int64_t kMaxEnergy = std::int64_t{1} << 62;
+
+[[noreturn]] void refuse(std::string where, std::string what, std::string limit, std::string remedy = "") {
+  throw Error({.code = ErrorCode::invalid_input,
+               .what = std::move(what),
+               .where = std::move(where),
+               .limit = std::move(limit),
+               .remedy = std::move(remedy)});
+}
+
+}  // namespace
+
+void check_options(const RetargetOptions& options) {
+  if (options.radius < 1 || options.radius > kMaxRadius) {
+    refuse("radius", fmt::format("radius {}", options.radius), fmt::format("1..{} pixels", kMaxRadius));
+  }
+  const int reachable = kMaxMove - options.radius;
+  for (const int m : {options.motion.x, options.motion.y}) {
+    if (m < -reachable || m > reachable) {
+      refuse("motion", fmt::format("motion ({}, {}) with radius {}", options.motion.x, options.motion.y, options.radius),
+             fmt::format("-{0}..{0} on each axis, so that |motion| + radius <= {1}", reachable, kMaxMove),
+             "a move is stored in 8 bits; use a smaller motion or radius");
+    }
+  }
+  if (options.reach != Reach::chebyshev && options.reach != Reach::euclidean) {
+    refuse("reach", "unknown reach", "chebyshev or euclidean");
+  }
+  if (options.metric != Metric::l1 && options.metric != Metric::l2) refuse("metric", "unknown metric", "l1 or l2");
+  if (!(options.gap >= 0.0 && options.gap < 1.0)) {
+    refuse("gap", fmt::format("gap {}", options.gap), "0 <= gap < 1; 0.005 means half a percent");
+  }
+}
+
+std::int64_t check_levels(const Grid<std::int32_t>& levels, Metric metric) {
+  if (levels.count() == 0) refuse("levels", "the image has no pixels", "at least 1x1");
+  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+  for (const auto* extreme : {&*low, &*high}) {
+    if (*extreme >= 0 && *extreme <= kMaxLevel) continue;
+    const auto at = static_cast<std::int64_t>(extreme - levels.data());
+    refuse("levels", fmt::format("level {} at pixel ({}, {})", *extreme, at % levels.width(), at / levels.width()),
+           fmt::format("0..{}", kMaxLevel));
+  }
+  const std::int64_t largest = level_cost(*low, *high, metric);
+  if (largest > kMaxEnergy / levels.size().area()) {
+    throw Error({.code = ErrorCode::over_limit,
+                 .what = fmt::format("{} pixels at up to {} each: the energy could pass 2^62",
+                                     levels.size().area(), largest),
+                 .where = "levels",
+                 .limit = "pixels * largest cost <= 2^62",
+                 .remedy = "use fewer levels, or the metric l1"});
+  }
+  return largest;
+}
+
+std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options) {
+  // The representatives that wrap_centred() gives are each axis's nearest; without wrap a pixel of the
+  // far border is its own.
+  const int x_low = options.wrap ? -(size.width / 2) : 1 - size.width;
+  const int x_high = options.wrap ? (size.width - 1) / 2 : size.width - 1;
+  const int y_low = options.wrap ? -(size.height / 2) : 1 - size.height;
+  const int y_high = options.wrap ? (size.height - 1) / 2 : size.height - 1;
+  std::vector<ReachRow> rows;
+  for (int y = std::max(y_low, -options.radius); y <= std::min(y_high, options.radius); ++y) {
+    int half = options.radius;
+    while (!within_reach({half, y}, options)) --half;
+    rows.push_back({y, std::max(x_low, -half), std::min(x_high, half)});
+  }
+  return rows;
+}
+
+Grid<std::int32_t> landing_levels(const Grid<std::int32_t>& levels, const RetargetOptions& options) {
+  const auto [width, height] = levels.size();
+  const int shift_x = wrap(std::int64_t{options.step.x} + options.motion.x, width);
+  const int shift_y = wrap(std::int64_t{options.step.y} + options.motion.y, height);
+  Grid<std::int32_t> landing(levels.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) landing(x, y) = levels.torus(std::int64_t{x} + shift_x, std::int64_t{y} + shift_y);
+  }
+  return landing;
+}
+
+}  // namespace bn

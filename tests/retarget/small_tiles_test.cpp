@@ -1,0 +1,75 @@
+// Protects: the solver finds the optimum, with proof, on every small tile: against all permutations of
+// tiny ones and against the Hungarian method on the full cost matrix, over all options.
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "reference.h"
+
+namespace bn {
+namespace {
+
+void expect_optimum(const Grid<std::int32_t>& levels, const RetargetOptions& options, std::int64_t optimum) {
+  const RetargetTile tile = solve_retarget(levels, options, {.threads = 1});
+  SCOPED_TRACE(testing::Message() << levels.width() << "x" << levels.height() << " step " << options.step.x << ","
+                                  << options.step.y << " motion " << options.motion.x << "," << options.motion.y
+                                  << " radius " << options.radius << " euclidean "
+                                  << (options.reach == Reach::euclidean) << " l2 " << (options.metric == Metric::l2)
+                                  << " wrap " << options.wrap);
+  EXPECT_EQ(tile.energy, optimum);
+  EXPECT_EQ(tile.lower_bound, optimum);
+  EXPECT_EQ(tile.energy, retarget_energy(levels, tile.move, options));
+  EXPECT_NO_THROW(check_permutation(tile.move, options));
+}
+
+/// Calls body(options) for a spread of all options, motions and steps drawn from `seed`.
+template <class Body>
+void for_all_options(std::uint64_t seed, const std::vector<int>& radii, Body&& body) {
+  std::uint64_t draw = 0;
+  const auto between = [&](int low, int high) {
+    return low + static_cast<int>(random_bits(seed, 2, draw++) % static_cast<std::uint64_t>(high - low + 1));
+  };
+  for (const int radius : radii) {
+    for (const Reach reach : {Reach::chebyshev, Reach::euclidean}) {
+      for (const Metric metric : {Metric::l1, Metric::l2}) {
+        for (const bool wrapped : {true, false}) {
+          RetargetOptions options;
+          options.radius = radius;
+          options.reach = reach;
+          options.metric = metric;
+          options.wrap = wrapped;
+          options.step = {between(-9, 9), between(-9, 9)};
+          options.motion = {between(-4, 4), between(-4, 4)};
+          body(options);
+        }
+      }
+    }
+  }
+}
+
+TEST(SmallTiles, EveryPermutationOfTinyTiles) {
+  std::uint64_t seed = 0;
+  for (const Extent size : {Extent{1, 1}, Extent{2, 1}, Extent{1, 5}, Extent{2, 2}, Extent{2, 3}, Extent{3, 3}, Extent{4, 2}}) {
+    for (const std::int32_t bound : {2, 7, 256}) {
+      const auto levels = random_levels(size, ++seed, bound);
+      for_all_options(seed, {1, 2, 6}, [&](const RetargetOptions& options) {
+        expect_optimum(levels, options, enumerate_optimum(cost_matrix(levels, options)));
+      });
+    }
+  }
+}
+
+TEST(SmallTiles, HungarianMethodOnSmallTiles) {
+  std::uint64_t seed = 100;
+  for (const Extent size : {Extent{5, 5}, Extent{5, 7}, Extent{8, 6}, Extent{8, 8}, Extent{1, 40}, Extent{33, 2}, Extent{17, 9}}) {
+    for (const std::int32_t bound : {2, 16, 256, 65536, 1 << 24}) {
+      const auto levels = random_levels(size, ++seed, bound);
+      for_all_options(seed, {1, 2, 3, 6, 8, 32}, [&](const RetargetOptions& options) {
+        expect_optimum(levels, options, hungarian_optimum(cost_matrix(levels, options)));
+      });
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bn
