@@ -1,5 +1,6 @@
 // The retarget problem as a sparse linear assignment problem: rows are seeds, columns are the pixels they
-// land on (less the motion), and row u may take the columns u + k of its window, at cost(A(u), B(u + k)).
+// land on, both in the coordinates of problem.h, and row q may take the columns q + k of its window, at
+// cost(A(q), B(q + k)).
 
 #pragma once
 
@@ -11,15 +12,15 @@
 namespace bn {
 
 struct AssignmentProblem {
-  Grid<std::int32_t> row_level;     ///< A(u) = D(u)
-  Grid<std::int32_t> column_level;  ///< B(w) = D(w + m + d)
+  Grid<std::int32_t> row_level;     ///< A(q) = D(q - d)
+  Grid<std::int32_t> column_level;  ///< B(w) = D(w + m)
   std::vector<ReachRow> window;
   Metric metric = Metric::l1;
   bool wrap = true;
 
   AssignmentProblem(const Grid<std::int32_t>& levels, const RetargetOptions& options)
-      : row_level(levels),
-        column_level(landing_levels(levels, options)),
+      : row_level(shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y})),
+        column_level(shifted(levels, options.motion.x, options.motion.y)),
         window(reach_rows(levels.size(), options)),
         metric(options.metric),
         wrap(options.wrap) {}

@@ -63,7 +63,9 @@ void check_permutation(const Grid<Offset>& move, const RetargetOptions& options)
              fmt::format("radius {}, {}", options.radius,
                          options.reach == Reach::euclidean ? "euclidean" : "chebyshev"));
       }
-      const bool inside = x + k_x >= 0 && x + k_x < width && y + k_y >= 0 && y + k_y < height;
+      const std::int64_t to_x = wrap(std::int64_t{x} + options.step.x, width) + k_x;
+      const std::int64_t to_y = wrap(std::int64_t{y} + options.step.y, height) + k_y;
+      const bool inside = to_x >= 0 && to_x < width && to_y >= 0 && to_y < height;
       if (!options.wrap && !inside) {
         fail(pixel, width, fmt::format("moves by ({}, {}), across the tile's border", r.x, r.y),
              "inside the tile, as wrap is off");

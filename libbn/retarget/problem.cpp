@@ -81,15 +81,13 @@ std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options) {
   return rows;
 }
 
-Grid<std::int32_t> landing_levels(const Grid<std::int32_t>& levels, const RetargetOptions& options) {
+Grid<std::int32_t> shifted(const Grid<std::int32_t>& levels, std::int64_t x, std::int64_t y) {
   const auto [width, height] = levels.size();
-  const int shift_x = wrap(std::int64_t{options.step.x} + options.motion.x, width);
-  const int shift_y = wrap(std::int64_t{options.step.y} + options.motion.y, height);
-  Grid<std::int32_t> landing(levels.size());
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) landing(x, y) = levels.torus(std::int64_t{x} + shift_x, std::int64_t{y} + shift_y);
+  Grid<std::int32_t> result(levels.size());
+  for (int to_y = 0; to_y < height; ++to_y) {
+    for (int to_x = 0; to_x < width; ++to_x) result(to_x, to_y) = levels.torus(to_x + x, to_y + y);
   }
-  return landing;
+  return result;
 }
 
 }  // namespace bn

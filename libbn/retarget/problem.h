@@ -43,8 +43,11 @@ struct ReachRow {
 /// lower one); without wrap the border cuts the window further, pixel by pixel.
 std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options);
 
-/// The levels where seeds land, seen from displacement: B(w) = D(w + m + d), so that a seed at u with
-/// R(u) = k + m pays cost(D(u), B(u + k)).
-Grid<std::int32_t> landing_levels(const Grid<std::int32_t>& levels, const RetargetOptions& options);
+/// The levels seen from an offset: result(q) = levels(q + offset), on the torus.
+///
+/// Solvers work in the coordinates of the tile that seeds land in, q = u + d, where the border of a tile
+/// without wrap lies: the seed at u = q - d, of level A(q) = D(q - d), that moves by R(u) = k + m pays
+/// cost(A(q), B(q + k)) with B(w) = D(w + m). So A = shifted(D, -d) and B = shifted(D, m).
+Grid<std::int32_t> shifted(const Grid<std::int32_t>& levels, std::int64_t x, std::int64_t y);
 
 }  // namespace bn

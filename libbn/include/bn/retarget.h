@@ -37,7 +37,8 @@ struct RetargetOptions {
   int radius = 6;       ///< 1..32 pixels
   Reach reach = Reach::chebyshev;
   Metric metric = Metric::l1;
-  /// false: no seed may cross the tile's border (u + R(u) - m stays inside), for tiles used alone.
+  /// false: no seed may cross the border of the tile it lands in: with q = u + d (taken modulo the tile),
+  /// q + R(u) - m stays inside. For tiles used alone.
   bool wrap = true;
   /// Stop as soon as (energy - lower_bound) <= gap * lower_bound is proven. 0: prove the optimum.
   double gap = 0.0;
