@@ -15,7 +15,7 @@ inline constexpr int kVoidAndClusterVersion = 1;
 struct VoidAndClusterOptions {
   Extent size{64, 64};           ///< each side 1..16384 pixels
   double sigma_px = 1.9;         ///< standard deviation of the Gaussian, 0.3..16 pixels
-  double initial_density = 0.1;  ///< share of pixels set in the initial pattern, above 0, at most 0.5
+  double initial_density = 0.0;  ///< share of the ranks ordered by removing clusters, 0..0.5; 0 suits best
   std::uint64_t seed = 1;        ///< any value; stream numbers are listed in void_and_cluster.cpp
   int cutoff_px = 0;             ///< kernel radius, 1..64 pixels; 0: where the weight rounds to zero
 };
