@@ -30,8 +30,9 @@ struct TileRecord {
   friend bool operator==(const TileRecord&, const TileRecord&) = default;
 };
 
-/// What every file says of itself. Stored as one JSON object (schema in docs/conventions.md) in the
-/// image's description: PNG text, EXR and TIFF ImageDescription, a comment in .h, the header of .bin.
+/// What every file says of itself. Stored as one JSON object (schema in docs/files.md) in the image's
+/// description: PNG text "Description", EXR "comments", TIFF ImageDescription, a comment in .h, the
+/// metadata block of .bin.
 struct Metadata {
   std::string tool_version{kVersion};
   std::string algorithm;      ///< "void-and-cluster", "retarget-exact", ...
@@ -53,6 +54,14 @@ struct Metadata {
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };
 
+/// `metadata` as JSON: members in a fixed order, pure ASCII; on one line, or indented if `indent` >= 0.
+/// Errors: invalid_input (text that is not UTF-8).
+std::string to_json(const Metadata& metadata, int indent = -1);
+
+/// The inverse. Strict: errors with invalid_input on an unknown member, a missing one, a wrong type, a
+/// number out of range, or another version of the schema.
+Metadata metadata_from_json(std::string_view json);
+
 /// Interleaved samples in native byte order, origin top-left, linear (never colour-managed).
 struct Image {
   Extent size;
@@ -68,31 +77,47 @@ std::string pixel_hash(const Image& image);
 struct FileContent {
   Image image;
   std::optional<Metadata> metadata;  ///< absent in files that this toolkit did not write
+  /// Why metadata of ours is there and cannot be read (cut short, edited, from a newer version); empty
+  /// otherwise. The picture stands; whoever needs the metadata treats a fault as an error.
+  std::string metadata_fault;
 };
 
-/// Reads PNG, EXR, TIFF and what else OpenImageIO knows, and our own .bin. Hostile headers are
-/// refused before memory is taken: sides 1..65536, channels 1..64, decoded size within
-/// execution.memory_limit_bytes. Other sample types are widened to the nearest of ours.
-/// Errors: io (cannot be opened), invalid_input (not an image, truncated, corrupt), over_limit.
+/// Reads the first picture of a PNG, EXR or TIFF file, of our own .bin and .h, and of other formats
+/// that OpenImageIO decodes from memory (BMP, TGA, JPEG, HDR, ...). PNG, EXR, TIFF and ours are known
+/// by their content, others by their extension. Samples are those stored: no colour management, no
+/// multiplication by alpha. Palettes and 1, 2 and 4 bit grey are expanded to 8bit, half is widened to
+/// float; signed, 32 bit and double samples become floats of the same value (rounded to 24 bits).
+/// Recomputes nothing: a pixel hash that does not fit is for the caller to compare.
+/// Hostile headers are refused before memory is taken: sides 1..65536, channels 1..64, file and
+/// decoded size together within execution.memory_limit_bytes, at most 10,000 decoded bytes a file byte.
+/// Only regular files are read. Thread safe. execution.stop is honoured, threads are not used.
+/// Errors: io (cannot be opened or read), invalid_input (not an image, truncated, corrupt, deep or
+/// volumetric), over_limit, cancelled.
 FileContent read_image(const std::filesystem::path& path, const Execution& execution = {});
 
-/// Writes `image` in the format the extension names: .png (8bit, 16bit; 1..4 channels), .exr, .tif,
-/// .tiff, .h (C array), .bin. Byte-identical for equal arguments. Temporary in the same folder,
-/// checked writes, flush to disk, rename: a failure leaves an old file as it was, and no litter.
-/// Errors: io; invalid_input (an extension or a sample type that the format cannot hold).
+/// Writes `image` in the format the extension names (upper or lower case):
+///   .png         8bit, 16bit; 1, 3 or 4 channels (two would make the second one alpha)
+///   .exr         float
+///   .tif, .tiff  8bit, 16bit, float
+///   .bin, .h     8bit, 16bit, float; layouts in docs/files.md; no NaN or infinity in .h
+/// Byte-identical for equal arguments and one version of the libraries. The file is made in memory,
+/// then a temporary in the same folder is written, checked, flushed to disk and renamed: a failure or
+/// a kill leaves an old file as it was, and no litter. Of two writers at once the last one's file
+/// stands, whole. A symbolic link is followed. Thread safe.
+/// Errors: io; invalid_input (an extension, sample type or shape that the format cannot hold).
 void write_image(const std::filesystem::path& path, const Image& image, Metadata metadata);
 
 /// Throws what write_image() would throw for this path and type, without writing: unknown
 /// extension, unfit sample type, missing folder, no permission. Call it before the work starts.
 void check_writable(const std::filesystem::path& path, SampleType type, int channels);
 
-/// The same crash-safe path for text: manifests, CSV, HTML.
+/// The same crash-safe path for text: manifests, CSV, HTML. Errors: io.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 // --- encodings (docs/conventions.md) -------------------------------------------------------------
 
 /// A rank mask as samples: 8bit floor(rank * 256 / N), 16bit floor(rank * 65536 / N), float
-/// (rank + 0.5) / N. One channel.
+/// (rank + 0.5) / N. One channel. Errors: invalid_input (a rank >= N).
 Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type);
 
 /// Moves as 8bit RGB: red = x + 128, green = y + 128, blue = 0. Each component -128..127, checked.
@@ -101,20 +126,25 @@ Image encode_moves(const Grid<Offset>& move);
 Grid<Offset> decode_moves(const Image& image);
 
 /// Equal images laid out row by row, `columns` to a row; their number is a multiple of it.
+/// Errors: invalid_input (none, unequal ones, an atlas of more than 65536 pixels a side).
 Image make_atlas(const std::vector<Image>& tiles, int columns);
-/// Tile number `index` of an atlas of tiles of `tile_size`.
+/// Tile number `index`, row by row, of an atlas of tiles of `tile_size`. Errors: invalid_input (the
+/// atlas is no multiple of the tile, or has no such tile).
 Image atlas_tile(const Image& atlas, Extent tile_size, int index);
 
 /// One channel as integer levels, the unit in which energies are stated.
 struct Levels {
   Grid<std::int32_t> value;  ///< 8bit 0..255, 16bit 0..65535, float 0..65535 over [minimum, maximum]
-  double unit = 1.0;         ///< sample difference of one level (for float (maximum - minimum) / 65535)
+  double unit = 1.0;         ///< sample difference of one level; float: (maximum - minimum) / 65535, constant: 1
   double offset = 0.0;       ///< sample value of level 0
   double rounding_error = 0; ///< largest |sample - (offset + unit * level)|; 0 for integer images
   int distinct = 0;          ///< number of different levels
-  bool is_permutation = false;  ///< every level (or rank) equally often, as in a baked mask
+  /// As evenly spread as a baked mask of N pixels: min(N, levels of the type) different levels, each
+  /// equally often up to one; for float N different samples, or exactly those of encode_mask().
+  bool is_permutation = false;
 };
 
+/// The samples of one channel as levels. A float s becomes the level nearest to (s - offset) / unit.
 /// Errors: invalid_input (no such channel; NaN or infinity, with count and first position).
 Levels levels_of_channel(const Image& image, int channel);
 

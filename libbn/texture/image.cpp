@@ -1,0 +1,75 @@
+#include "texture/image.h"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <bit>
+#include <memory>
+
+#include "texture/error.h"
+
+namespace bn {
+
+// Samples are kept in native order and hashed, written and read as they lie in memory; files and
+// hashes are little-endian. A big-endian machine needs a swap in pixel_hash() and bin_format.cpp.
+static_assert(std::endian::native == std::endian::little, "libbn supports little-endian machines");
+
+std::string_view name_of(SampleType type) {
+  switch (type) {
+    case SampleType::u8: return "8bit";
+    case SampleType::u16: return "16bit";
+    case SampleType::f32: return "float";
+  }
+  return "unknown";
+}
+
+std::size_t bytes_per_sample(SampleType type) {
+  return type == SampleType::u8 ? 1 : type == SampleType::u16 ? 2 : 4;
+}
+
+std::string pixel_hash(const Image& image) {
+  texture::check_image(image, "pixel_hash");
+  const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
+  if (!state) throw std::bad_alloc();
+  const std::uint32_t head[4] = {static_cast<std::uint32_t>(image.size.width),
+                                 static_cast<std::uint32_t>(image.size.height),
+                                 static_cast<std::uint32_t>(image.channels),
+                                 static_cast<std::uint32_t>(image.type)};
+  XXH3_128bits_reset(state.get());
+  XXH3_128bits_update(state.get(), head, sizeof head);
+  XXH3_128bits_update(state.get(), image.samples.data(), image.samples.size());
+  const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
+  return fmt::format("xxh3-128:{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+namespace texture {
+
+void check_shape(std::int64_t width, std::int64_t height, std::int64_t channels, std::string_view where) {
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+    fail_input(std::string(where), fmt::format("an image of {}x{} pixels", width, height),
+               fmt::format("1..{} pixels a side", kMaxSide));
+  }
+  if (channels < 1 || channels > kMaxChannels) {
+    fail_input(std::string(where), fmt::format("an image of {} channels", channels),
+               fmt::format("1..{} channels", kMaxChannels));
+  }
+}
+
+std::uint64_t sample_bytes(Extent size, int channels, SampleType type) {
+  return static_cast<std::uint64_t>(size.area()) * static_cast<std::uint64_t>(channels) *
+         bytes_per_sample(type);
+}
+
+void check_image(const Image& image, std::string_view where) {
+  check_shape(image.size.width, image.size.height, image.channels, where);
+  const std::uint64_t expected = sample_bytes(image.size, image.channels, image.type);
+  if (image.samples.size() != expected) {
+    fail_input(std::string(where), fmt::format("{} bytes of samples for {}x{} pixels of {} channels, {}",
+                                               image.samples.size(), image.size.width, image.size.height,
+                                               image.channels, name_of(image.type)),
+               fmt::format("{} bytes", expected));
+  }
+}
+
+}  // namespace texture
+}  // namespace bn

@@ -1,0 +1,23 @@
+// What holds for every image, whatever file it is in.
+
+#pragma once
+
+#include <string_view>
+
+#include "bn/texture.h"
+
+namespace bn::texture {
+
+inline constexpr std::int64_t kMaxSide = 65536;
+inline constexpr std::int64_t kMaxChannels = 64;
+
+/// Throws invalid_input unless sides and channels are within the limits above.
+void check_shape(std::int64_t width, std::int64_t height, std::int64_t channels, std::string_view where);
+
+/// Bytes of the samples of such an image. The limits keep it below 2^41.
+std::uint64_t sample_bytes(Extent size, int channels, SampleType type);
+
+/// check_shape(), and that there are as many samples as the shape says.
+void check_image(const Image& image, std::string_view where);
+
+}  // namespace bn::texture

@@ -1,0 +1,108 @@
+// Reading: the file comes into memory once, is known by its signature, and is decoded there.
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <new>
+#include <system_error>
+
+#include "bn/texture.h"
+#include "texture/codec.h"
+#include "texture/error.h"
+#include "texture/image.h"
+#include "texture/metadata.h"
+
+namespace bn {
+namespace texture {
+namespace {
+
+struct Signature {
+  std::string_view bytes;
+  const char* format;
+};
+
+using namespace std::string_view_literals;
+constexpr Signature kSignatures[] = {
+    {"\x89PNG\r\n\x1a\n"sv, "png"}, {"\x76\x2f\x31\x01"sv, "openexr"}, {"II*\0"sv, "tiff"},
+    {"MM\0*"sv, "tiff"},            {"II+\0"sv, "tiff"},               {"MM\0+"sv, "tiff"},
+};
+
+bool begins_with(ByteView bytes, std::string_view signature) {
+  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+}
+
+/// The whole regular file at `path`.
+Bytes read_file(const std::filesystem::path& path, const Execution& execution) {
+  const std::string name = path.string();
+  const auto fail = [&](int error) {
+    fail_io(name, "cannot be read: " + std::generic_category().message(error));
+  };
+  // Without O_NONBLOCK opening a pipe would wait for a writer.
+  const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) fail(errno);
+  const struct Closer {
+    int file;
+    ~Closer() { ::close(file); }
+  } closer{file};
+
+  struct stat status = {};
+  if (::fstat(file, &status) != 0) fail(errno);
+  if (!S_ISREG(status.st_mode)) fail_io(name, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
+  check_memory(execution, static_cast<std::uint64_t>(status.st_size), name);
+
+  Bytes bytes(static_cast<std::size_t>(status.st_size));
+  std::size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t count = ::read(file, bytes.data() + done, bytes.size() - done);
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) fail(errno);
+    if (count == 0) break;  // it was cut while we read; the decoder will say what is missing
+    done += static_cast<std::size_t>(count);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+Decoded decode_by_content(ByteView bytes, const std::string& name, const Execution& execution) {
+  if (bytes.empty()) fail_input(name, "an empty file");
+  if (is_bin(bytes)) return decode_bin(bytes, name, execution);
+  if (is_c_header(bytes)) return decode_c_header(bytes, name, execution);
+  for (const Signature& signature : kSignatures) {
+    if (begins_with(bytes, signature.bytes)) return decode_oiio(bytes, signature.format, name, execution);
+  }
+  std::string extension = std::filesystem::path(name).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  return decode_oiio(bytes, extension, name, execution);
+}
+
+}  // namespace
+
+Decoded decode(ByteView bytes, const std::string& name, const Execution& execution) {
+  try {
+    return decode_by_content(bytes, name, execution);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw Error({.code = ErrorCode::over_limit, .what = "not enough memory to decode it", .where = name,
+                 .limit = "", .remedy = ""});
+  } catch (const std::exception& error) {
+    fail_input(name, fmt::format("cannot be decoded: {}", error.what()));
+  }
+}
+
+}  // namespace texture
+
+FileContent read_image(const std::filesystem::path& path, const Execution& execution) {
+  const texture::Bytes bytes = texture::read_file(path, execution);
+  texture::Decoded decoded = texture::decode(std::as_bytes(std::span(bytes)), path.string(), execution);
+  FileContent content{.image = std::move(decoded.image), .metadata = {}, .metadata_fault = {}};
+  texture::read_description(decoded.description, content);
+  return content;
+}
+
+}  // namespace bn
