@@ -96,7 +96,8 @@ Decoded decode_bin(ByteView bytes, const std::string& name, const Execution& exe
                                  samples_offset + samples_bytes));
   }
   check_memory(execution, bytes.size() + samples_bytes, name);
-  decoded.description.assign(reinterpret_cast<const char*>(bytes.data()) + sizeof header, header.metadata_bytes);
+  decoded.description.assign(reinterpret_cast<const char*>(bytes.data()) + sizeof header,
+                             header.metadata_bytes);
   const ByteView samples = bytes.subspan(samples_offset);
   image.samples.assign(samples.begin(), samples.end());
   return decoded;

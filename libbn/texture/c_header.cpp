@@ -72,7 +72,8 @@ std::string_view literal(const Image& image, std::size_t index, std::array<char,
   } else {
     const auto value = sample_at<float>(image, index);
     end = std::to_chars(buffer.data(), buffer.data() + buffer.size() - 3, value).ptr;
-    const bool integer = std::all_of(buffer.data(), end, [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
+    const bool integer =
+        std::all_of(buffer.data(), end, [](char c) { return c == '-' || (c >= '0' && c <= '9'); });
     if (integer) {
       *end++ = '.';
       *end++ = '0';
@@ -91,7 +92,8 @@ void append_rows(std::string& text, const Image& image) {
     text += "  {";
     std::size_t line_start = text.size() - 3;
     for (std::size_t x = 0; x < width; ++x) {
-      pixel = channels > 1 ? "{" : "";
+      pixel.clear();
+      if (channels > 1) pixel += '{';
       for (std::size_t c = 0; c < channels; ++c) {
         if (c > 0) pixel += ',';
         pixel += literal(image, (y * width + x) * channels + c, buffer);
@@ -181,8 +183,8 @@ Bytes encode_c_header(const std::string& stem, const Image& image, const Metadat
   }
   const std::string name = identifier(stem);
   const std::string macro = upper(name);
-  std::string text = fmt::format("{}{}: {}x{} pixels, channels: {}, {}.\n", kOpening, metadata.tool_version, image.size.width,
-                                 image.size.height, image.channels, name_of(image.type));
+  std::string text = fmt::format("{}{}: {}x{} pixels, channels: {}, {}.\n", kOpening, metadata.tool_version,
+                                 image.size.width, image.size.height, image.channels, name_of(image.type));
   text += fmt::format("Origin top-left; {}[y][x]{}.\n", name, image.channels > 1 ? "[channel]" : "");
   text += kMetadataMark;
   text += comment_safe(to_json(metadata, 2));
@@ -230,10 +232,17 @@ Decoded decode_c_header(ByteView bytes, const std::string& name, const Execution
   check_memory(execution, bytes.size() + samples_bytes, name);
   image.samples.resize(samples_bytes);
   switch (image.type) {
-    case SampleType::u8: read_samples<std::uint8_t>(scanner, image); break;
-    case SampleType::u16: read_samples<std::uint16_t>(scanner, image); break;
-    case SampleType::f32: read_samples<float>(scanner, image); break;
+    case SampleType::u8:
+      read_samples<std::uint8_t>(scanner, image);
+      break;
+    case SampleType::u16:
+      read_samples<std::uint16_t>(scanner, image);
+      break;
+    case SampleType::f32:
+      read_samples<float>(scanner, image);
+      break;
   }
+  if (image.channels > 1) scanner.expect("}");
   scanner.expect("},\n};\n");
   return decoded;
 }

@@ -29,7 +29,8 @@ Decoded decode(ByteView bytes, const std::string& name, const Execution& executi
 Bytes encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
 
 // Through OpenImageIO. `format` is its name of a format: "png", "openexr", "tiff", or an extension.
-Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name, const Execution& execution);
+Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
+                    const Execution& execution);
 Bytes encode_oiio(const std::string& format, const Image& image, const std::string& description);
 
 // Our own raw format.

@@ -18,7 +18,9 @@ constexpr int kMoveZero = 128;
 
 Image blank(Extent size, int channels, SampleType type, std::string_view where) {
   texture::check_shape(size.width, size.height, channels, where);
-  return {.size = size, .channels = channels, .type = type,
+  return {.size = size,
+          .channels = channels,
+          .type = type,
           .samples = std::vector<std::byte>(texture::sample_bytes(size, channels, type))};
 }
 
@@ -52,10 +54,12 @@ Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type) {
   if (bad != rank.end()) fail_input("encode_mask", fmt::format("rank {}", *bad), fmt::format("0..{}", n - 1));
   switch (type) {
     case SampleType::u8:
-      fill<std::uint8_t>(image, rank, [n](std::uint64_t r) { return static_cast<std::uint8_t>(r * 256 / n); });
+      fill<std::uint8_t>(image, rank,
+                         [n](std::uint64_t r) { return static_cast<std::uint8_t>(r * 256 / n); });
       break;
     case SampleType::u16:
-      fill<std::uint16_t>(image, rank, [n](std::uint64_t r) { return static_cast<std::uint16_t>(r * 65536 / n); });
+      fill<std::uint16_t>(image, rank,
+                          [n](std::uint64_t r) { return static_cast<std::uint16_t>(r * 65536 / n); });
       break;
     case SampleType::f32:
       fill<float>(image, rank, [n](std::uint64_t r) {
@@ -99,7 +103,8 @@ Grid<Offset> decode_moves(const Image& image) {
 
 Image make_atlas(const std::vector<Image>& tiles, int columns) {
   if (columns < 1 || tiles.empty() || tiles.size() % static_cast<std::size_t>(columns) != 0) {
-    fail_input("make_atlas", fmt::format("{} tiles in rows of {}", tiles.size(), columns), "a multiple of the row");
+    fail_input("make_atlas", fmt::format("{} tiles in rows of {}", tiles.size(), columns),
+               "a multiple of the row");
   }
   const Image& first = tiles.front();
   for (const Image& tile : tiles) {
@@ -111,11 +116,13 @@ Image make_atlas(const std::vector<Image>& tiles, int columns) {
   const auto width = std::int64_t{first.size.width} * columns;
   const auto height = static_cast<std::int64_t>(tiles.size()) / columns * first.size.height;
   texture::check_shape(width, height, first.channels, "make_atlas");
-  Image atlas = blank({static_cast<int>(width), static_cast<int>(height)}, first.channels, first.type, "make_atlas");
+  Image atlas =
+      blank({static_cast<int>(width), static_cast<int>(height)}, first.channels, first.type, "make_atlas");
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    for_each_row(atlas, first.size, static_cast<int>(i), [&](std::size_t in_atlas, std::size_t in_tile, std::size_t n) {
-      std::memcpy(atlas.samples.data() + in_atlas, tiles[i].samples.data() + in_tile, n);
-    });
+    for_each_row(atlas, first.size, static_cast<int>(i),
+                 [&](std::size_t in_atlas, std::size_t in_tile, std::size_t n) {
+                   std::memcpy(atlas.samples.data() + in_atlas, tiles[i].samples.data() + in_tile, n);
+                 });
   }
   return atlas;
 }
@@ -124,8 +131,10 @@ Image atlas_tile(const Image& atlas, Extent tile_size, int index) {
   texture::check_image(atlas, "atlas_tile");
   if (tile_size.width < 1 || tile_size.height < 1 || atlas.size.width % tile_size.width != 0 ||
       atlas.size.height % tile_size.height != 0) {
-    fail_input("atlas_tile", fmt::format("tiles of {}x{} in an atlas of {}x{}", tile_size.width, tile_size.height,
-                                         atlas.size.width, atlas.size.height), "a divisor of the atlas");
+    fail_input("atlas_tile",
+               fmt::format("tiles of {}x{} in an atlas of {}x{}", tile_size.width, tile_size.height,
+                           atlas.size.width, atlas.size.height),
+               "a divisor of the atlas");
   }
   const std::int64_t count = atlas.size.area() / tile_size.area();
   if (index < 0 || index >= count) {

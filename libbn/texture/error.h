@@ -9,14 +9,20 @@
 namespace bn::texture {
 
 [[noreturn]] inline void fail_io(std::string where, std::string what, std::string remedy = "") {
-  throw Error({.code = ErrorCode::io, .what = std::move(what), .where = std::move(where), .limit = "",
+  throw Error({.code = ErrorCode::io,
+               .what = std::move(what),
+               .where = std::move(where),
+               .limit = "",
                .remedy = std::move(remedy)});
 }
 
 [[noreturn]] inline void fail_input(std::string where, std::string what, std::string limit = "",
                                     std::string remedy = "") {
-  throw Error({.code = ErrorCode::invalid_input, .what = std::move(what), .where = std::move(where),
-               .limit = std::move(limit), .remedy = std::move(remedy)});
+  throw Error({.code = ErrorCode::invalid_input,
+               .what = std::move(what),
+               .where = std::move(where),
+               .limit = std::move(limit),
+               .remedy = std::move(remedy)});
 }
 
 }  // namespace bn::texture

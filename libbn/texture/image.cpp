@@ -16,9 +16,12 @@ static_assert(std::endian::native == std::endian::little, "libbn supports little
 
 std::string_view name_of(SampleType type) {
   switch (type) {
-    case SampleType::u8: return "8bit";
-    case SampleType::u16: return "16bit";
-    case SampleType::f32: return "float";
+    case SampleType::u8:
+      return "8bit";
+    case SampleType::u16:
+      return "16bit";
+    case SampleType::f32:
+      return "float";
   }
   return "unknown";
 }
@@ -31,10 +34,9 @@ std::string pixel_hash(const Image& image) {
   texture::check_image(image, "pixel_hash");
   const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
   if (!state) throw std::bad_alloc();
-  const std::uint32_t head[4] = {static_cast<std::uint32_t>(image.size.width),
-                                 static_cast<std::uint32_t>(image.size.height),
-                                 static_cast<std::uint32_t>(image.channels),
-                                 static_cast<std::uint32_t>(image.type)};
+  const std::uint32_t head[4] = {
+      static_cast<std::uint32_t>(image.size.width), static_cast<std::uint32_t>(image.size.height),
+      static_cast<std::uint32_t>(image.channels), static_cast<std::uint32_t>(image.type)};
   XXH3_128bits_reset(state.get());
   XXH3_128bits_update(state.get(), head, sizeof head);
   XXH3_128bits_update(state.get(), image.samples.data(), image.samples.size());
@@ -64,9 +66,9 @@ void check_image(const Image& image, std::string_view where) {
   check_shape(image.size.width, image.size.height, image.channels, where);
   const std::uint64_t expected = sample_bytes(image.size, image.channels, image.type);
   if (image.samples.size() != expected) {
-    fail_input(std::string(where), fmt::format("{} bytes of samples for {}x{} pixels of {} channels, {}",
-                                               image.samples.size(), image.size.width, image.size.height,
-                                               image.channels, name_of(image.type)),
+    fail_input(std::string(where),
+               fmt::format("{} bytes of samples for {}x{} pixels of {} channels, {}", image.samples.size(),
+                           image.size.width, image.size.height, image.channels, name_of(image.type)),
                fmt::format("{} bytes", expected));
   }
 }

@@ -50,10 +50,9 @@ Levels integer_levels(const Image& image, int channel) {
   const auto pixels = static_cast<std::int64_t>(samples.size());
   const std::int64_t wanted = std::min<std::int64_t>(pixels, kLevels);
   const std::int64_t least = pixels / wanted;
-  levels.is_permutation =
-      levels.distinct == wanted && std::all_of(count.begin(), count.end(), [&](std::int64_t c) {
-        return c == 0 || c == least || c == least + 1;
-      });
+  levels.is_permutation = levels.distinct == wanted &&
+                          std::all_of(count.begin(), count.end(),
+                                      [&](std::int64_t c) { return c == 0 || c == least || c == least + 1; });
   return levels;
 }
 
@@ -90,8 +89,8 @@ Levels float_levels(const Image& image, int channel) {
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double level = std::floor((samples[i] - levels.offset) / levels.unit + 0.5);
     levels.value[i] = static_cast<std::int32_t>(std::clamp(level, 0.0, double{kFloatLevels - 1}));
-    levels.rounding_error = std::max(
-        levels.rounding_error, std::fabs(samples[i] - (levels.offset + levels.unit * levels.value[i])));
+    levels.rounding_error = std::max(levels.rounding_error,
+                                     std::fabs(samples[i] - (levels.offset + levels.unit * levels.value[i])));
   }
   levels.distinct = occupied(histogram(levels.value, kFloatLevels));
   levels.is_permutation = spread_like_a_mask(std::move(samples));
@@ -107,9 +106,12 @@ Levels levels_of_channel(const Image& image, int channel) {
                fmt::format("0..{}", image.channels - 1));
   }
   switch (image.type) {
-    case SampleType::u8: return integer_levels<std::uint8_t>(image, channel);
-    case SampleType::u16: return integer_levels<std::uint16_t>(image, channel);
-    case SampleType::f32: break;
+    case SampleType::u8:
+      return integer_levels<std::uint8_t>(image, channel);
+    case SampleType::u16:
+      return integer_levels<std::uint16_t>(image, channel);
+    case SampleType::f32:
+      break;
   }
   return float_levels(image, channel);
 }

@@ -109,7 +109,8 @@ Metadata metadata_from(ordered_json object) {
   Metadata metadata;
   metadata.tool_version = members.required("tool_version", members.text("tool_version"));
   metadata.algorithm = members.required("algorithm", members.text("algorithm"));
-  metadata.algorithm_version = members.required("algorithm_version", members.integer<int>("algorithm_version"));
+  metadata.algorithm_version =
+      members.required("algorithm_version", members.integer<int>("algorithm_version"));
   metadata.kind = members.required("kind", members.text("kind"));
   metadata.recipe = members.required("recipe", members.text("recipe"));
   metadata.seed = members.integer<std::uint64_t>("seed");
@@ -126,10 +127,11 @@ Metadata metadata_from(ordered_json object) {
     if (!tiles->is_array()) texture::fail_input(kWhere, "member 'tiles' is not an array");
     for (std::size_t i = 0; i < tiles->size(); ++i) {
       Members tile(std::move((*tiles)[i]), fmt::format("metadata, tile {}", i));
-      metadata.tiles.push_back({.motion = tile.required("motion", tile.offset("motion")),
-                                .start_energy = tile.required("start_energy", tile.integer<std::int64_t>("start_energy")),
-                                .energy = tile.required("energy", tile.integer<std::int64_t>("energy")),
-                                .lower_bound = tile.required("lower_bound", tile.integer<std::int64_t>("lower_bound"))});
+      metadata.tiles.push_back(
+          {.motion = tile.required("motion", tile.offset("motion")),
+           .start_energy = tile.required("start_energy", tile.integer<std::int64_t>("start_energy")),
+           .energy = tile.required("energy", tile.integer<std::int64_t>("energy")),
+           .lower_bound = tile.required("lower_bound", tile.integer<std::int64_t>("lower_bound"))});
       tile.finish();
     }
   }

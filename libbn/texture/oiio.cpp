@@ -75,15 +75,19 @@ struct StoredType {
 StoredType stored_type(const OIIO::ImageSpec& spec, const std::string& name) {
   if (!spec.channelformats.empty()) return {TypeDesc::FLOAT, SampleType::f32};
   switch (spec.format.basetype) {
-    case TypeDesc::UINT8: return {TypeDesc::UINT8, SampleType::u8};
-    case TypeDesc::UINT16: return {TypeDesc::UINT16, SampleType::u16};
+    case TypeDesc::UINT8:
+      return {TypeDesc::UINT8, SampleType::u8};
+    case TypeDesc::UINT16:
+      return {TypeDesc::UINT16, SampleType::u16};
     case TypeDesc::HALF:
-    case TypeDesc::FLOAT: return {TypeDesc::FLOAT, SampleType::f32};
+    case TypeDesc::FLOAT:
+      return {TypeDesc::FLOAT, SampleType::f32};
     case TypeDesc::INT8:
     case TypeDesc::INT16:
     case TypeDesc::INT32:
     case TypeDesc::UINT32:
-    case TypeDesc::DOUBLE: return {spec.format, SampleType::f32};
+    case TypeDesc::DOUBLE:
+      return {spec.format, SampleType::f32};
     default:
       fail_input(name, fmt::format("samples of type '{}'", spec.format.c_str()),
                  "integers of at most 32 bits, half, float, double");
@@ -118,11 +122,16 @@ void to_float(const std::vector<std::byte>& native, std::vector<std::byte>& samp
 
 void to_float(TypeDesc type, const std::vector<std::byte>& native, std::vector<std::byte>& samples) {
   switch (type.basetype) {
-    case TypeDesc::INT8: return to_float<std::int8_t>(native, samples);
-    case TypeDesc::INT16: return to_float<std::int16_t>(native, samples);
-    case TypeDesc::INT32: return to_float<std::int32_t>(native, samples);
-    case TypeDesc::UINT32: return to_float<std::uint32_t>(native, samples);
-    default: return to_float<double>(native, samples);
+    case TypeDesc::INT8:
+      return to_float<std::int8_t>(native, samples);
+    case TypeDesc::INT16:
+      return to_float<std::int16_t>(native, samples);
+    case TypeDesc::INT32:
+      return to_float<std::int32_t>(native, samples);
+    case TypeDesc::UINT32:
+      return to_float<std::uint32_t>(native, samples);
+    default:
+      return to_float<double>(native, samples);
   }
 }
 
@@ -138,12 +147,15 @@ std::vector<std::string> channel_names(int channels) {
 }
 
 TypeDesc type_desc(SampleType type) {
-  return type == SampleType::u8 ? TypeDesc::UINT8 : type == SampleType::u16 ? TypeDesc::UINT16 : TypeDesc::FLOAT;
+  return type == SampleType::u8    ? TypeDesc::UINT8
+         : type == SampleType::u16 ? TypeDesc::UINT16
+                                   : TypeDesc::FLOAT;
 }
 
 }  // namespace
 
-Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name, const Execution& execution) {
+Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
+                    const Execution& execution) {
   configure();
   MemoryReader reader(bytes);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
@@ -169,10 +181,10 @@ Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string
   const OIIO::ProgressCallback stop_requested = [](void* data, float) {
     return static_cast<const Execution*>(data)->stop.stop_requested();
   };
-  const bool complete =
-      input->read_image(0, 0, 0, spec.nchannels, type.read, type.widened() ? native.data() : image.samples.data(),
-                        OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride, stop_requested,
-                        const_cast<Execution*>(&execution));
+  const bool complete = input->read_image(0, 0, 0, spec.nchannels, type.read,
+                                          type.widened() ? native.data() : image.samples.data(),
+                                          OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride,
+                                          stop_requested, const_cast<Execution*>(&execution));
   throw_if_stopped(execution);
   if (!complete || input->has_error()) fail();
   if (type.widened()) to_float(type.read, native, image.samples);

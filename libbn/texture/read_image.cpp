@@ -28,12 +28,17 @@ struct Signature {
 
 using namespace std::string_view_literals;
 constexpr Signature kSignatures[] = {
-    {"\x89PNG\r\n\x1a\n"sv, "png"}, {"\x76\x2f\x31\x01"sv, "openexr"}, {"II*\0"sv, "tiff"},
-    {"MM\0*"sv, "tiff"},            {"II+\0"sv, "tiff"},               {"MM\0+"sv, "tiff"},
+    {"\x89PNG\r\n\x1a\n"sv, "png"},
+    {"\x76\x2f\x31\x01"sv, "openexr"},
+    {"II*\0"sv, "tiff"},
+    {"MM\0*"sv, "tiff"},
+    {"II+\0"sv, "tiff"},
+    {"MM\0+"sv, "tiff"},
 };
 
 bool begins_with(ByteView bytes, std::string_view signature) {
-  return bytes.size() >= signature.size() && std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+  return bytes.size() >= signature.size() &&
+         std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
 }
 
 /// The whole regular file at `path`.
@@ -52,7 +57,8 @@ Bytes read_file(const std::filesystem::path& path, const Execution& execution) {
 
   struct stat status = {};
   if (::fstat(file, &status) != 0) fail(errno);
-  if (!S_ISREG(status.st_mode)) fail_io(name, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
+  if (!S_ISREG(status.st_mode))
+    fail_io(name, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
   check_memory(execution, static_cast<std::uint64_t>(status.st_size), name);
 
   Bytes bytes(static_cast<std::size_t>(status.st_size));
@@ -88,8 +94,11 @@ Decoded decode(ByteView bytes, const std::string& name, const Execution& executi
   } catch (const Error&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw Error({.code = ErrorCode::over_limit, .what = "not enough memory to decode it", .where = name,
-                 .limit = "", .remedy = ""});
+    throw Error({.code = ErrorCode::over_limit,
+                 .what = "not enough memory to decode it",
+                 .where = name,
+                 .limit = "",
+                 .remedy = ""});
   } catch (const std::exception& error) {
     fail_input(name, fmt::format("cannot be decoded: {}", error.what()));
   }

@@ -41,7 +41,8 @@ constexpr std::string_view kSuffix = ".bn-tmp";
 
 [[noreturn]] void fail(const std::string& where, std::string_view what, int error) {
   const char* remedy = "";
-  if (error == ENOSPC || error == EDQUOT) remedy = "free some space or write elsewhere; the old file, if any, is intact";
+  if (error == ENOSPC || error == EDQUOT)
+    remedy = "free some space or write elsewhere; the old file, if any, is intact";
   if (error == EFBIG) remedy = "raise the limit on file sizes (ulimit -f)";
   if (error == EACCES || error == EPERM || error == EROFS) remedy = "choose a folder you may write to";
   if (error == ENOENT || error == ENOTDIR) remedy = "create the folder first";
@@ -80,13 +81,15 @@ std::string temporary_prefix(const std::filesystem::path& target) {
 
 std::string temporary_name(const std::filesystem::path& target) {
   std::uint64_t random = 0;
-  if (::getrandom(&random, sizeof random, 0) != sizeof random) fail(target.string(), "no random number", errno);
+  if (::getrandom(&random, sizeof random, 0) != sizeof random)
+    fail(target.string(), "no random number", errno);
   return fmt::format("{}{:016x}{}", temporary_prefix(target), random, kSuffix);
 }
 
 /// Removes temporaries whose writer is gone. Nothing depends on it, so failures are no errors.
 void sweep(int folder, const std::filesystem::path& target, const FileCalls& calls) {
-  const int copy = uninterrupted([&] { return calls.open(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0); });
+  const int copy =
+      uninterrupted([&] { return calls.open(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0); });
   if (copy < 0) return;
   const std::unique_ptr<DIR, int (*)(DIR*)> listing(::fdopendir(copy), ::closedir);
   if (!listing) {
@@ -100,7 +103,8 @@ void sweep(int folder, const std::filesystem::path& target, const FileCalls& cal
         !name.ends_with(kSuffix)) {
       continue;
     }
-    const Descriptor found(calls.open(folder, entry->d_name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0));
+    const Descriptor found(
+        calls.open(folder, entry->d_name, O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0));
     if (found.get() >= 0 && ::flock(found.get(), LOCK_EX | LOCK_NB) == 0) calls.unlink(folder, entry->d_name);
   }
 }
@@ -138,7 +142,8 @@ class Temporary {
   bool open_unnamed() {
     // An unnamed file gets its name through /proc; some sandboxes have none.
     if (::access("/proc/self/fd", X_OK) != 0) return false;
-    file_ = Descriptor(uninterrupted([&] { return calls_.open(folder_, ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); }));
+    file_ = Descriptor(
+        uninterrupted([&] { return calls_.open(folder_, ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666); }));
     if (get() < 0) {
       // What file systems and old kernels without O_TMPFILE answer.
       if (errno == EOPNOTSUPP || errno == EISDIR || errno == EINVAL || errno == ENOENT) return false;
@@ -181,7 +186,8 @@ std::filesystem::path folder_of(const std::filesystem::path& path) {
 
 const FileCalls& FileCalls::system() {
   static const FileCalls calls{
-      .open = [](int folder, const char* name, int flags, mode_t mode) { return ::openat(folder, name, flags, mode); },
+      .open = [](int folder, const char* name, int flags,
+                 mode_t mode) { return ::openat(folder, name, flags, mode); },
       .write = ::write,
       .fsync = ::fsync,
       .link =
@@ -189,7 +195,8 @@ const FileCalls& FileCalls::system() {
             const std::string unnamed = fmt::format("/proc/self/fd/{}", file);
             return ::linkat(AT_FDCWD, unnamed.c_str(), folder, name, AT_SYMLINK_FOLLOW);
           },
-      .rename = [](int folder, const char* from, const char* to) { return ::renameat(folder, from, folder, to); },
+      .rename = [](int folder, const char* from,
+                   const char* to) { return ::renameat(folder, from, folder, to); },
       .unlink = [](int folder, const char* name) { return ::unlinkat(folder, name, 0); },
   };
   return calls;
@@ -222,18 +229,21 @@ std::filesystem::path check_replaceable(const std::filesystem::path& path) {
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes, const FileCalls& calls) {
   const std::filesystem::path target = check_replaceable(path);
   const std::string where = path.string();
-  const Descriptor folder(uninterrupted(
-      [&] { return calls.open(AT_FDCWD, folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0); }));
+  const Descriptor folder(uninterrupted([&] {
+    return calls.open(AT_FDCWD, folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0);
+  }));
   if (folder.get() < 0) fail(where, "its folder cannot be opened", errno);
   sweep(folder.get(), target, calls);
 
   Temporary temporary(folder.get(), target, calls);
   while (!bytes.empty()) {
-    const ssize_t written = uninterrupted([&] { return calls.write(temporary.get(), bytes.data(), bytes.size()); });
+    const ssize_t written =
+        uninterrupted([&] { return calls.write(temporary.get(), bytes.data(), bytes.size()); });
     if (written <= 0) fail(where, "cannot be written", written < 0 ? errno : ENOSPC);
     bytes = bytes.subspan(static_cast<std::size_t>(written));
   }
-  if (uninterrupted([&] { return calls.fsync(temporary.get()); }) != 0) fail(where, "cannot be flushed to disk", errno);
+  if (uninterrupted([&] { return calls.fsync(temporary.get()); }) != 0)
+    fail(where, "cannot be flushed to disk", errno);
   temporary.rename_to_target();
 
   // EINVAL: a file system that does not flush folders.

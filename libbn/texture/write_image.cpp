@@ -23,8 +23,8 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {".png", "png", true, false}, {".exr", "openexr", false, true}, {".tif", "tiff", true, true},
-    {".tiff", "tiff", true, true}, {".bin", nullptr, true, true},   {".h", nullptr, true, true},
+    {".png", "png", true, false},  {".exr", "openexr", false, true}, {".tif", "tiff", true, true},
+    {".tiff", "tiff", true, true}, {".bin", nullptr, true, true},    {".h", nullptr, true, true},
 };
 
 std::string extension_of(const std::filesystem::path& path) {
@@ -43,13 +43,15 @@ const Format& format_for(const std::filesystem::path& path, SampleType type, int
     if (format.extension != extension) continue;
     if (type == SampleType::f32 ? !format.floats : !format.integers) {
       fail_input(where, fmt::format("{} cannot hold {} samples", extension, name_of(type)),
-                 format.floats ? "float" : "8bit, 16bit", format.floats ? "write float" : "write .exr or .tif");
+                 format.floats ? "float" : "8bit, 16bit",
+                 format.floats ? "write float" : "write .exr or .tif");
     }
     check_shape(1, 1, channels, where);
     if (extension == ".png" && channels != 1 && channels != 3 && channels != 4) {
       fail_input(where, fmt::format("{} channels in PNG", channels), "1, 3 or 4",
-                 channels == 2 ? "add a third channel of zeros (PNG makes a second one alpha), or write .tif or .bin"
-                               : "write .tif or .bin");
+                 channels == 2
+                     ? "add a third channel of zeros (PNG makes a second one alpha), or write .tif or .bin"
+                     : "write .tif or .bin");
     }
     return format;
   }
@@ -85,8 +87,11 @@ void write_image(const std::filesystem::path& path, const Image& image, Metadata
     const texture::Bytes bytes = texture::encode(path, image, metadata);
     texture::write_file(path, std::as_bytes(std::span(bytes)));
   } catch (const std::bad_alloc&) {
-    throw Error({.code = ErrorCode::over_limit, .what = "not enough memory to make the file",
-                 .where = path.string(), .limit = "", .remedy = ""});
+    throw Error({.code = ErrorCode::over_limit,
+                 .what = "not enough memory to make the file",
+                 .where = path.string(),
+                 .limit = "",
+                 .remedy = ""});
   }
 }
 

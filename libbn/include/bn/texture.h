@@ -35,10 +35,10 @@ struct TileRecord {
 /// metadata block of .bin.
 struct Metadata {
   std::string tool_version{kVersion};
-  std::string algorithm;      ///< "void-and-cluster", "retarget-exact", ...
+  std::string algorithm;  ///< "void-and-cluster", "retarget-exact", ...
   int algorithm_version = 0;
-  std::string kind;           ///< "mask", "retarget-tile", "retarget-atlas", "contact-sheet"
-  std::string recipe;         ///< TOML that makes this file again, whole
+  std::string kind;    ///< "mask", "retarget-tile", "retarget-atlas", "contact-sheet"
+  std::string recipe;  ///< TOML that makes this file again, whole
   std::optional<std::uint64_t> seed;
   std::optional<Offset> step;
   std::optional<int> radius;
@@ -46,11 +46,11 @@ struct Metadata {
   std::optional<std::string> metric;  ///< "l1", "l2"
   std::optional<bool> wrap;
   std::optional<std::string> form;    ///< "scatter", "gather"
-  std::optional<std::string> source;       ///< for retarget: the mask's file, relative to this file
+  std::optional<std::string> source;  ///< for retarget: the mask's file, relative to this file
   std::optional<int> source_channel;
   std::optional<std::string> source_hash;  ///< its pixel hash
-  std::vector<TileRecord> tiles;  ///< one for a tile, one per motion for an atlas, row by row
-  std::string pixel_hash;         ///< filled in by write_image()
+  std::vector<TileRecord> tiles;           ///< one for a tile, one per motion for an atlas, row by row
+  std::string pixel_hash;                  ///< filled in by write_image()
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };
 
@@ -135,10 +135,10 @@ Image atlas_tile(const Image& atlas, Extent tile_size, int index);
 /// One channel as integer levels, the unit in which energies are stated.
 struct Levels {
   Grid<std::int32_t> value;  ///< 8bit 0..255, 16bit 0..65535, float 0..65535 over [minimum, maximum]
-  double unit = 1.0;         ///< sample difference of one level; float: (maximum - minimum) / 65535, constant: 1
-  double offset = 0.0;       ///< sample value of level 0
-  double rounding_error = 0; ///< largest |sample - (offset + unit * level)|; 0 for integer images
-  int distinct = 0;          ///< number of different levels
+  double unit = 1.0;    ///< sample difference of one level; float: (maximum - minimum) / 65535, constant: 1
+  double offset = 0.0;  ///< sample value of level 0
+  double rounding_error = 0;  ///< largest |sample - (offset + unit * level)|; 0 for integer images
+  int distinct = 0;           ///< number of different levels
   /// As evenly spread as a baked mask of N pixels: min(N, levels of the type) different levels, each
   /// equally often up to one; for float N different samples, or exactly those of encode_mask().
   bool is_permutation = false;
