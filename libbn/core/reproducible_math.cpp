@@ -1,6 +1,8 @@
 #include "core/reproducible_math.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bn {
 
@@ -19,6 +21,26 @@ double reproducible_exp(double x) {
   double sum = 1.0;
   for (int n = 14; n >= 1; --n) sum = 1.0 + sum * r / n;
   return std::ldexp(sum, static_cast<int>(k));
+}
+
+double reproducible_log(double x) {
+  x = std::max(x, std::numeric_limits<double>::min());
+
+  // x = 2^k m with sqrt(1/2) <= m < sqrt(2); ln m = 2 artanh(s), s = (m - 1) / (m + 1), |s| <= 0.1716.
+  int k = 0;
+  double m = std::frexp(x, &k);
+  if (m < 0.70710678118654752) {
+    m *= 2.0;
+    --k;
+  }
+  const double s = (m - 1.0) / (m + 1.0);
+  const double square = s * s;
+  // The term s^23/23 is below 2^-62.
+  double sum = 0.0;
+  for (int n = 21; n >= 3; n -= 2) sum = (sum + 1.0 / n) * square;
+  constexpr double kLn2High = 0x1.62e42feep-1;
+  constexpr double kLn2Low = 0x1.a39ef35793c76p-33;
+  return k * kLn2High + (2.0 * (s + s * sum) + k * kLn2Low);
 }
 
 }  // namespace bn

@@ -9,4 +9,8 @@ namespace bn {
 /// e^x for -700 <= x <= 700, within 2 ulp. Below that range 0, above it e^700.
 double reproducible_exp(double x);
 
+/// The natural logarithm of x for 2^-1022 <= x < infinity, within 4 ulp (near x = 1 within 2^-53 absolute).
+/// Below that range ln(2^-1022).
+double reproducible_log(double x);
+
 }  // namespace bn

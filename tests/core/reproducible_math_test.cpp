@@ -1,6 +1,7 @@
-// Protects: e^x is accurate to its stated bound, and its bits are these on every machine.
+// Protects: e^x and ln x are accurate to their stated bounds, and their bits are these on every machine.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -33,6 +34,33 @@ TEST(ReproducibleExp, GoldenBits) {
     hash = hash * 6364136223846793005u + std::bit_cast<std::uint64_t>(reproducible_exp(-0.01 * i));
   }
   EXPECT_EQ(hash, 15416344994821772451u);
+}
+
+TEST(ReproducibleLog, WithinFourUlpOfLongDouble) {
+  for (double exponent = -1021.0; exponent <= 1023.0; exponent += 0.0137) {
+    const double x = std::exp2(exponent);
+    const double ours = reproducible_log(x);
+    const long double exact = std::log(static_cast<long double>(x));
+    const double ulp = std::nextafter(std::fabs(ours), INFINITY) - std::fabs(ours);
+    EXPECT_LE(std::fabs(static_cast<double>(ours - exact)), std::max(4.0 * ulp, 0x1p-53)) << x;
+  }
+  for (double x = 0.5; x <= 2.0; x += 1e-5) {
+    const double exact = static_cast<double>(std::log(static_cast<long double>(x)));
+    EXPECT_NEAR(reproducible_log(x), exact, std::max(0x1p-53, 4.0 * std::fabs(exact) * 0x1p-52)) << x;
+  }
+}
+
+TEST(ReproducibleLog, Limits) {
+  EXPECT_EQ(reproducible_log(1.0), 0.0);
+  EXPECT_EQ(reproducible_log(0.0), reproducible_log(0x1p-1022));
+}
+
+TEST(ReproducibleLog, GoldenBits) {
+  std::uint64_t hash = 0;
+  for (int i = 1; i <= 10000; ++i) {
+    hash = hash * 6364136223846793005u + std::bit_cast<std::uint64_t>(reproducible_log(0.01 * i));
+  }
+  EXPECT_EQ(hash, 9432366938592272686u);
 }
 
 }  // namespace
