@@ -1,0 +1,218 @@
+// CLI11 parts options, values and verbs; meaning and messages are ours. Each argument is collected as
+// text, as often as it is given, and assigned afterwards, so that an unknown word is reported before
+// a bad value and --help works whatever else is wrong. The only file that includes CLI11: it compiles slowly.
+
+#include "tools/command_line.h"
+
+#include <fmt/format.h>
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <deque>
+
+namespace bn::tools {
+namespace {
+
+[[noreturn]] void fail(std::string what, std::string where, std::string remedy) {
+  throw Error({.code = ErrorCode::usage,
+               .what = std::move(what),
+               .where = std::move(where),
+               .limit = "",
+               .remedy = std::move(remedy)});
+}
+
+/// An argument and the texts given for it.
+struct Given {
+  const Argument* argument;
+  std::vector<std::string> texts = {};
+  int switched = 0;
+};
+
+/// A CLI11 application whose arguments are `given`; a deque, because CLI11 keeps references.
+void add_arguments(CLI::App& app, const std::vector<Argument>& list, std::deque<Given>& given) {
+  for (const auto& argument : list) {
+    Given& entry = given.emplace_back(Given{&argument});
+    const std::string names =
+        argument.short_name.empty() ? argument.name : argument.short_name + "," + argument.name;
+    if (argument.is_switch()) {
+      app.add_flag(names, entry.switched)->disable_flag_override();
+    } else {
+      // One value each time, or none: how many, and how often, is checked in assign().
+      app.add_option(names, entry.texts)
+          ->type_size(1)
+          ->expected(argument.is_positional() ? 1 : 0, 1)
+          ->allow_extra_args(false)
+          ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    }
+  }
+}
+
+void prepare(CLI::App& app) {
+  app.set_help_flag();
+  app.allow_extras();
+  app.fallthrough();
+}
+
+std::string first_word(const std::string& name) { return name.substr(0, name.find(' ')); }
+
+std::string help_remedy(std::string_view of) {
+  return of.empty() ? "see bn --help" : fmt::format("see bn {} --help", of);
+}
+
+std::string suggestion(const std::string& nearest, std::string_view verb) {
+  return nearest.empty() ? help_remedy(verb) : fmt::format("did you mean {}?", nearest);
+}
+
+void fail_unknown_option(const std::string& word, const std::vector<const std::vector<Argument>*>& lists,
+                         const std::string& verb) {
+  std::vector<std::string> names;
+  for (const auto* list : lists) {
+    for (const auto& argument : *list) {
+      if (!argument.is_positional()) names.push_back(argument.name);
+    }
+  }
+  const std::string name = word.substr(0, word.find('='));
+  fail(fmt::format("there is no option '{}'", name), verb, suggestion(nearest_word(name, names), verb));
+}
+
+void assign(const Given& given, const std::string& verb) {
+  const Argument& argument = *given.argument;
+  if (argument.is_switch()) {
+    if (given.switched > 0) argument.assign("");
+  } else if (given.texts.size() > 1) {
+    fail(fmt::format("given {} times, as '{}'", given.texts.size(), fmt::join(given.texts, "' and '")),
+         argument.name, "give it once");
+  } else if (given.texts.size() == 1 && given.texts.front().empty() && !argument.is_positional()) {
+    throw Error({.code = ErrorCode::usage,
+                 .what = "a value is missing",
+                 .where = argument.name,
+                 .limit = argument.allowed,
+                 .remedy = fmt::format("write {} {}", argument.name, argument.placeholder)});
+  } else if (given.texts.size() == 1) {
+    argument.assign(given.texts.front());
+  } else if (argument.required) {
+    fail(fmt::format("{} is missing",
+                     argument.is_positional() ? argument.name : argument.name + " " + argument.placeholder),
+         verb, help_remedy(verb));
+  }
+}
+
+}  // namespace
+
+Arguments declare(GlobalOptions& globals) {
+  Arguments arguments;
+  arguments.option("--threads", globals.threads, integer_in(0, 1024),
+                   "Threads to use, 0 for every core. The result does not depend on it.");
+  arguments.option("--max-memory", globals.memory_limit_bytes, memory_size(),
+                   "Refuse work that would need more memory than this.");
+  arguments.option("--progress", globals.progress,
+                   choice_of<ProgressStyle>({{"auto", ProgressStyle::automatic},
+                                             {"bar", ProgressStyle::bar},
+                                             {"plain", ProgressStyle::plain},
+                                             {"json", ProgressStyle::json},
+                                             {"none", ProgressStyle::none}}),
+                   "How progress is shown on stderr; auto is a bar on a terminal and plain lines elsewhere.");
+  arguments.flag("--quiet", globals.quiet, true, "Print results and errors only.", "-q");
+  arguments.flag("--help", globals.help, true, "Print this help.", "-h");
+  arguments.flag("--version", globals.version, true, "Print the version.");
+  return arguments;
+}
+
+Invocation parse_command_line(const std::vector<std::string>& words, const std::vector<Verb>& verbs,
+                              const Arguments& globals) {
+  CLI::App root;
+  prepare(root);
+  root.require_subcommand(0, 1);
+  std::deque<Given> given_globals;
+  add_arguments(root, globals.list(), given_globals);
+
+  struct Candidate {
+    const Verb* verb;
+    CLI::App* app;
+    std::deque<Given> given = {};
+  };
+  std::deque<Candidate> candidates;
+  std::vector<std::pair<std::string, CLI::App*>> groups;
+  for (const auto& verb : verbs) {
+    CLI::App* parent = &root;
+    std::string word = verb.name;
+    if (const auto space = word.find(' '); space != std::string::npos) {
+      const std::string group = word.substr(0, space);
+      word = word.substr(space + 1);
+      if (groups.empty() || groups.back().first != group) {
+        CLI::App* app = root.add_subcommand(group);
+        prepare(*app);
+        app->require_subcommand(0, 1);
+        groups.emplace_back(group, app);
+      }
+      parent = groups.back().second;
+    }
+    CLI::App* app = parent->add_subcommand(word);
+    prepare(*app);
+    auto& candidate = candidates.emplace_back(Candidate{&verb, app});
+    add_arguments(*app, verb.arguments.list(), candidate.given);
+  }
+
+  Invocation invocation;
+  std::string parse_failure;
+  try {
+    root.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them last first
+  } catch (const CLI::ArgumentMismatch&) {
+    parse_failure = "a switch takes no value";
+  } catch (const CLI::ParseError& error) {
+    parse_failure = error.what();
+  }
+  const Candidate* chosen = nullptr;
+  for (const auto& [name, app] : groups) {
+    if (app->parsed()) invocation.group = name;
+  }
+  for (const auto& candidate : candidates) {
+    if (candidate.app->parsed()) chosen = &candidate;
+  }
+  if (chosen != nullptr) invocation.verb = chosen->verb;
+  const std::string name = chosen != nullptr ? chosen->verb->name : invocation.group;
+
+  for (const auto& given : given_globals) {
+    const auto& option = given.argument->name;
+    if (given.switched > 0 && (option == "--help" || option == "--version")) {
+      given.argument->assign("");
+      return invocation;
+    }
+  }
+  if (!parse_failure.empty()) fail(parse_failure, name, help_remedy(name));
+
+  auto extras = root.remaining(true);
+  std::erase(extras, "--");  // CLI11 hands back the mark after which every word is a positional argument
+  for (const auto& word : extras) {
+    if (word.size() < 2 || word.front() != '-') continue;
+    std::vector<const std::vector<Argument>*> lists{&globals.list()};
+    if (chosen != nullptr) lists.push_back(&chosen->verb->arguments.list());
+    fail_unknown_option(word, lists, name);
+  }
+  if (chosen == nullptr && !extras.empty()) {
+    std::vector<std::string> known;
+    for (const auto& verb : verbs) {
+      const std::string first = first_word(verb.name);
+      if (invocation.group.empty()) {
+        known.push_back(first);
+      } else if (first == invocation.group) {
+        known.push_back(verb.name.substr(first.size() + 1));
+      }
+    }
+    const std::string nearest = nearest_word(extras.front(), known);
+    fail(fmt::format("there is no {} '{}'", invocation.group.empty() ? "verb" : "method", extras.front()),
+         invocation.group,
+         suggestion(nearest.empty() ? "" : "bn " + (name.empty() ? "" : name + " ") + nearest, name));
+  }
+  if (!extras.empty()) fail(fmt::format("unexpected argument '{}'", extras.front()), name, help_remedy(name));
+
+  for (const auto& given : given_globals) assign(given, name);
+  if (chosen != nullptr) {
+    for (const auto& given : chosen->given) assign(given, name);
+  }
+  return invocation;
+}
+
+}  // namespace bn::tools

@@ -1,0 +1,242 @@
+#include "tools/values.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+namespace bn::tools {
+namespace {
+
+[[noreturn]] void fail(std::string_view text, std::string_view where, std::string_view what,
+                       std::string_view allowed, std::string_view remedy = "") {
+  throw Error({.code = ErrorCode::usage,
+               .what = fmt::format("'{}' {}", text, what),
+               .where = std::string(where),
+               .limit = std::string(allowed),
+               .remedy = std::string(remedy)});
+}
+
+/// The number that `text` is from its first to its last character; locale plays no part.
+template <class T>
+std::optional<T> whole_number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || text.empty()) return std::nullopt;
+  return value;
+}
+
+/// As whole_number(), but a number too large for T is its largest, so that the range check names it.
+template <class T>
+std::optional<T> saturated_number(std::string_view text) {
+  T value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end != text.data() + text.size() || text.empty()) return std::nullopt;
+  if (error == std::errc::result_out_of_range) {
+    return text.front() == '-' ? std::numeric_limits<T>::lowest() : std::numeric_limits<T>::max();
+  }
+  return error == std::errc{} ? std::optional<T>(value) : std::nullopt;
+}
+
+/// Splits "256x128" at the one separator.
+std::optional<std::pair<std::string_view, std::string_view>> halves(std::string_view text, char separator) {
+  const auto at = text.find(separator);
+  if (at == std::string_view::npos) return std::nullopt;
+  return std::pair(text.substr(0, at), text.substr(at + 1));
+}
+
+template <class Allow>
+ValueKind<double> real(std::string allowed, Allow allow) {
+  return {.placeholder = "NUMBER",
+          .allowed = allowed,
+          .parse =
+              [allowed, allow](std::string_view text, std::string_view where) {
+                const auto value = whole_number<double>(text);
+                if (!value) fail(text, where, "is no number", allowed);
+                if (!allow(*value)) fail(text, where, "is out of range", allowed);
+                return *value;
+              },
+          .show = [](const double& value) { return fmt::format("{}", value); }};
+}
+
+ValueKind<std::filesystem::path> path(std::string placeholder, Completion completion) {
+  return {.placeholder = std::move(placeholder),
+          .allowed = "",
+          .parse =
+              [](std::string_view text, std::string_view where) {
+                if (text.empty()) fail(text, where, "names no file or folder", "a path that is not empty");
+                return std::filesystem::path(text);
+              },
+          .show = [](const std::filesystem::path& value) { return value.string(); },
+          .completion = completion};
+}
+
+/// Edits (insert, remove, replace, swap of neighbours) that make `a` into `b`.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) {
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+      if (i == 0 || j == 0) {
+        edits[i][j] = i + j;
+        continue;
+      }
+      const std::size_t replace = edits[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      edits[i][j] = std::min({edits[i - 1][j] + 1, edits[i][j - 1] + 1, replace});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+        edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
+      }
+    }
+  }
+  return edits[a.size()][b.size()];
+}
+
+}  // namespace
+
+ValueKind<int> integer_in(int low, int high) {
+  const std::string allowed = fmt::format("{}..{}", low, high);
+  return {.placeholder = "N",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                const auto value = saturated_number<int>(text);
+                if (!value) fail(text, where, "is no whole number", allowed);
+                if (*value < low || *value > high) fail(text, where, "is out of range", allowed);
+                return *value;
+              },
+          .show = [](const int& value) { return fmt::format("{}", value); }};
+}
+
+ValueKind<std::uint64_t> any_seed() {
+  return {.placeholder = "N",
+          .allowed = "0..18446744073709551615",
+          .parse =
+              [](std::string_view text, std::string_view where) {
+                const auto value = whole_number<std::uint64_t>(text);
+                if (!value) fail(text, where, "is no seed", "0..18446744073709551615");
+                return *value;
+              },
+          .show = [](const std::uint64_t& value) { return fmt::format("{}", value); }};
+}
+
+ValueKind<double> real_in(double low, double high, std::string unit) {
+  return real(fmt::format("{}..{}{}", low, high, unit.empty() ? "" : " " + unit),
+              [=](double value) { return value >= low && value <= high; });
+}
+
+ValueKind<double> real_above(double low, double high) {
+  return real(fmt::format("above {}, at most {}", low, high),
+              [=](double value) { return value > low && value <= high; });
+}
+
+ValueKind<double> percentage_in(double low_percent, double high_percent) {
+  const std::string allowed = fmt::format("{}%..{}%", low_percent, high_percent);
+  return {.placeholder = "PERCENT",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                const bool has_sign = text.ends_with('%');
+                const auto value = whole_number<double>(has_sign ? text.substr(0, text.size() - 1) : text);
+                if (!value) fail(text, where, "is no percentage", allowed, "write it like 0.5%");
+                if (!has_sign && *value != 0) {
+                  fail(text, where, "has no % sign", allowed, fmt::format("write {}%", text));
+                }
+                if (!(*value >= low_percent && *value <= high_percent)) {
+                  fail(text, where, "is out of range", allowed);
+                }
+                return *value / 100;
+              },
+          .show = [](const double& value) { return fmt::format("{}%", value * 100); }};
+}
+
+ValueKind<Extent> extent_in(int low, int high) {
+  const std::string allowed = fmt::format("each {}..{}", low, high);
+  return {.placeholder = "WIDTHxHEIGHT",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                const auto sides = halves(text, 'x');
+                const auto width = sides ? saturated_number<int>(sides->first) : std::nullopt;
+                const auto height = sides ? saturated_number<int>(sides->second) : std::nullopt;
+                if (!width || !height) fail(text, where, "is no size", allowed, "write it like 256x256");
+                if (*width < low || *width > high || *height < low || *height > high) {
+                  fail(text, where, "is out of range", allowed);
+                }
+                return Extent{*width, *height};
+              },
+          .show = [](const Extent& value) { return fmt::format("{}x{}", value.width, value.height); }};
+}
+
+ValueKind<std::optional<Offset>> offset_or_auto() {
+  return {.placeholder = "X,Y|auto",
+          .allowed = "two whole numbers, or auto",
+          .parse = [](std::string_view text, std::string_view where) -> std::optional<Offset> {
+            if (text == "auto") return std::nullopt;
+            const auto parts = halves(text, ',');
+            const auto x = parts ? whole_number<int>(parts->first) : std::nullopt;
+            const auto y = parts ? whole_number<int>(parts->second) : std::nullopt;
+            if (!x || !y) {
+              fail(text, where, "is no step", "two whole numbers, or auto", "write it like 48,36");
+            }
+            return Offset{*x, *y};
+          },
+          .show =
+              [](const std::optional<Offset>& value) {
+                return value ? fmt::format("{},{}", value->x, value->y) : "auto";
+              },
+          .completion = Completion::choice,
+          .choices = {"auto"}};
+}
+
+ValueKind<std::uint64_t> memory_size() {
+  constexpr std::string_view kUnits = "KMGT";
+  const std::string allowed = "a whole number and one of K, M, G, T; at least 1M";
+  return {.placeholder = "SIZE",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                const auto unit = text.empty() ? std::string_view::npos : kUnits.find(text.back());
+                const auto count = whole_number<std::uint64_t>(text.substr(0, text.size() - !text.empty()));
+                if (unit == std::string_view::npos || !count) {
+                  fail(text, where, "is no memory size", allowed, "write it like 8G");
+                }
+                const unsigned shift = 10 * (static_cast<unsigned>(unit) + 1);
+                const bool fits = *count <= (std::numeric_limits<std::uint64_t>::max() >> shift);
+                if (!fits || (*count << shift) < (std::uint64_t{1} << 20)) {
+                  fail(text, where, "is out of range", allowed);
+                }
+                return *count << shift;
+              },
+          .show =
+              [=](const std::uint64_t& bytes) {
+                unsigned unit = 0;
+                while (unit < 3 && (bytes >> (10 * (unit + 2))) << (10 * (unit + 2)) == bytes) ++unit;
+                return fmt::format("{}{}", bytes >> (10 * (unit + 1)), kUnits[unit]);
+              }};
+}
+
+ValueKind<std::filesystem::path> file_path() { return path("FILE", Completion::file); }
+ValueKind<std::filesystem::path> folder_path() { return path("DIR", Completion::folder); }
+
+std::string nearest_word(std::string_view text, const std::vector<std::string>& words) {
+  std::string nearest;
+  // A third of the letters may be wrong; beyond that a suggestion is a guess.
+  std::size_t fewest = std::max<std::size_t>(1, text.size() / 3) + 1;
+  for (const auto& word : words) {
+    const std::size_t edits = edit_distance(text, word);
+    if (edits < fewest) {
+      fewest = edits;
+      nearest = word;
+    }
+  }
+  return nearest;
+}
+
+void fail_choice(std::string_view text, std::string_view where, const std::vector<std::string>& words) {
+  const std::string nearest = nearest_word(text, words);
+  fail(text, where, "is not a choice", fmt::format("{}", fmt::join(words, ", ")),
+       nearest.empty() ? "" : fmt::format("did you mean {}?", nearest));
+}
+
+}  // namespace bn::tools
