@@ -45,14 +45,14 @@ void transform(Complex* values, int count, std::ptrdiff_t stride) {
 
 }  // namespace
 
-double band_power(const Grid<float>& picture, double limit) {
+double low_frequency_power(const Grid<float>& picture, double limit) {
   const int width = picture.width();
   const int height = picture.height();
   if (width < 2 || height < 2 || !std::has_single_bit(static_cast<unsigned>(width)) ||
       !std::has_single_bit(static_cast<unsigned>(height))) {
     throw Error({.code = ErrorCode::invalid_input,
                  .what = fmt::format("a picture of {}x{}", width, height),
-                 .where = "band_power",
+                 .where = "low_frequency_power",
                  .limit = "sides that are powers of two, at least 2",
                  .remedy = "measure a crop"});
   }

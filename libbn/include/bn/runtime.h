@@ -127,6 +127,6 @@ std::vector<double> run_flat_model(const FlatModel& model, const TemporalTexture
 
 /// Power of `picture` (sides powers of two) at 0 < f <= limit against white noise of its variance:
 /// white noise reads 1.
-double band_power(const Grid<float>& picture, double limit);
+double low_frequency_power(const Grid<float>& picture, double limit);
 
 }  // namespace bn
