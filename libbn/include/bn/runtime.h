@@ -59,7 +59,7 @@ struct TemporalTextures {
   Offset step;                      ///< d: frame t dithers pixel p with mask texel p + t * d
   /// Scatter form, each of the mask's size: empty (never retarget), one (plain), or
   /// (2 * motion_range + 1)^2 variants row by row, the plain one in the middle.
-  std::vector<Grid<Offset>> moves;
+  std::vector<Grid<Offset>> moves = {};
   int motion_range = 0;             ///< 0..8
 
   void check() const;
