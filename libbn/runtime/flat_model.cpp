@@ -26,7 +26,8 @@ std::vector<double> run_flat_model(const FlatModel& model, const TemporalTexture
     }
     power_db.push_back(10.0 * std::log10(low_frequency_power(values, kBand)));
     const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
-    sort_seeds(seeds, values, textures.mask, shift, sort_blocks(model.block, model.jitter, model.seed, frame));
+    sort_seeds(seeds, values, textures.mask, shift,
+               sort_blocks(model.block, model.jitter, model.seed, frame));
     if (model.retarget) seeds = retarget_seeds(seeds, textures.move({0, 0}), shift);
   }
   return power_db;

@@ -17,7 +17,9 @@ namespace {
 
 constexpr std::int64_t kMotionUnit = 256;  // PixelMotion counts 1/256 pixel
 
-std::int64_t floor_divide(std::int64_t a, std::int64_t b) { return a / b - ((a % b != 0) && ((a < 0) != (b < 0))); }
+std::int64_t floor_divide(std::int64_t a, std::int64_t b) {
+  return a / b - ((a % b != 0) && ((a < 0) != (b < 0)));
+}
 
 int rounded_mean(std::int64_t sum, std::int64_t count, int range) {
   if (count == 0) return 0;
@@ -60,7 +62,8 @@ void TemporalTextures::check() const {
         const auto to = static_cast<std::size_t>(to_y) * static_cast<std::size_t>(tile.width()) +
                         static_cast<std::size_t>(to_x);
         if (taken[to]) {
-          refuse(fmt::format("retarget tile {} is no permutation: two seeds go to texel ({}, {})", i, to_x, to_y),
+          refuse(fmt::format("retarget tile {} is no permutation: two seeds go to texel ({}, {})", i, to_x,
+                             to_y),
                  "a bijection of the torus");
         }
         taken[to] = true;
@@ -76,15 +79,17 @@ const Grid<Offset>& TemporalTextures::move(Offset motion) const {
 
 Offset tile_shift(Extent tile, Offset step, std::int64_t frame) {
   // Wrapped first: frame * step stays within 64 bits for any frame.
-  const auto along = [&](int period, int d) { return wrap(wrap(frame, period) * std::int64_t{wrap(d, period)}, period); };
+  const auto along = [&](int period, int d) {
+    return wrap(wrap(frame, period) * std::int64_t{wrap(d, period)}, period);
+  };
   return {along(tile.width, step.x), along(tile.height, step.y)};
 }
 
 Seeds retarget_seeds(const Seeds& seeds, const Grid<Offset>& move, Offset shift, const Execution& execution) {
   if (move.count() == 0 || seeds.width() % move.width() != 0 || seeds.height() % move.height() != 0) {
     throw Error({.code = ErrorCode::invalid_input,
-                 .what = fmt::format("{}x{} seeds and a retarget tile of {}x{}", seeds.width(), seeds.height(),
-                                     move.width(), move.height()),
+                 .what = fmt::format("{}x{} seeds and a retarget tile of {}x{}", seeds.width(),
+                                     seeds.height(), move.width(), move.height()),
                  .where = "retarget_seeds",
                  .limit = "sides of the seed image that are multiples of the tile's",
                  .remedy = "pad the seed image: padded_extent()"});

@@ -65,7 +65,8 @@ SortBlocks sort_blocks(int side, bool jitter, std::uint64_t seed, std::int64_t f
   if (jitter) {
     const std::uint64_t bits = random_bits(seed, kJitterStream, static_cast<std::uint64_t>(frame));
     const auto below = [&](std::uint64_t word) {
-      return static_cast<int>(random_below(static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(side)));
+      return static_cast<int>(
+          random_below(static_cast<std::uint32_t>(word), static_cast<std::uint32_t>(side)));
     };
     blocks.origin = {below(bits), below(bits >> 32)};
   }
@@ -76,13 +77,13 @@ void sort_seeds(Seeds& seeds, const Grid<float>& luminance, const Grid<std::int3
                 const SortBlocks& blocks, const Execution& execution) {
   check_blocks(blocks);
   if (seeds.width() < luminance.width() || seeds.height() < luminance.height() || mask.count() == 0) {
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = fmt::format("{}x{} seeds for a screen of {}x{}, mask {}x{}", seeds.width(),
-                                     seeds.height(), luminance.width(), luminance.height(), mask.width(),
-                                     mask.height()),
-                 .where = "sort_seeds",
-                 .limit = "seeds no smaller than the screen, a mask that is not empty",
-                 .remedy = ""});
+    throw Error(
+        {.code = ErrorCode::invalid_input,
+         .what = fmt::format("{}x{} seeds for a screen of {}x{}, mask {}x{}", seeds.width(), seeds.height(),
+                             luminance.width(), luminance.height(), mask.width(), mask.height()),
+         .where = "sort_seeds",
+         .limit = "seeds no smaller than the screen, a mask that is not empty",
+         .remedy = ""});
   }
   const int side = blocks.side;
   const int columns = (luminance.width() + blocks.origin.x + side - 1) / side;

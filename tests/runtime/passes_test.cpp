@@ -14,7 +14,8 @@ namespace {
 
 Grid<std::int32_t> random_mask(Extent size, std::uint64_t seed) {
   Grid<std::int32_t> mask(size);
-  for (std::size_t i = 0; i < mask.count(); ++i) mask[i] = static_cast<std::int32_t>(random_bits(seed, 1, i) & 255);
+  for (std::size_t i = 0; i < mask.count(); ++i)
+    mask[i] = static_cast<std::int32_t>(random_bits(seed, 1, i) & 255);
   return mask;
 }
 
@@ -63,7 +64,8 @@ TEST(Seeds, MultisetSurvivesAHundredFramesOnAnyScreen) {
         luminance[i] = sample(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(frame));
       }
       const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
-      sort_seeds(seeds, luminance, textures.mask, shift, sort_blocks(2 << frame % 4, frame % 3 == 0, 9, frame));
+      sort_seeds(seeds, luminance, textures.mask, shift,
+                 sort_blocks(2 << frame % 4, frame % 3 == 0, 9, frame));
       seeds = retarget_seeds(seeds, textures.move({frame % 3 - 1, frame / 3 % 3 - 1}), shift);
     }
     EXPECT_EQ(multiset_digest(seeds), digest);
@@ -90,7 +92,8 @@ TEST(Sort, DarkestSeedGoesToTheLowestLevel) {
     Grid<float> value_of_seed(screen);
     Seeds seeds(screen);
     std::iota(seeds.begin(), seeds.end(), 0u);
-    for (std::size_t i = 0; i < seeds.count(); ++i) value_of_seed[i] = sample(static_cast<std::uint32_t>(i), 4);
+    for (std::size_t i = 0; i < seeds.count(); ++i)
+      value_of_seed[i] = sample(static_cast<std::uint32_t>(i), 4);
     sort_seeds(seeds, value_of_seed, mask, shift, blocks);
     // In each block, levels in order imply values in order.
     for (int y = 0; y < screen.height; ++y) {
@@ -113,7 +116,8 @@ TEST(Sort, TiesGoByIndexAndOddValuesAreBlack) {
   // All levels and values equal: nothing moves.
   Seeds seeds = initial_seeds({16, 16}, 3);
   const Seeds before = seeds;
-  sort_seeds(seeds, Grid<float>({16, 16}, 0.5f), Grid<std::int32_t>({4, 4}, 7), {0, 0}, {.side = 8, .origin = {}});
+  sort_seeds(seeds, Grid<float>({16, 16}, 0.5f), Grid<std::int32_t>({4, 4}, 7), {0, 0},
+             {.side = 8, .origin = {}});
   EXPECT_EQ(seeds, before);
   // NaN and negative count as 0; infinity is the brightest.
   const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -7,7 +7,7 @@
 
 namespace bn::test {
 
-/// The step of design figures on 64 x 64: near (n/g, n/g^2), odd, orbit 64.
+/// Near (n/g, n/g^2) for n = 64, both odd: an orbit of 64 frames.
 inline constexpr Offset kStep{49, 37};
 
 inline Grid<std::int32_t> eight_bit_levels(const Grid<std::uint32_t>& rank) {

@@ -55,12 +55,12 @@ std::uint64_t multiset_digest(const Seeds& seeds);
 
 /// The baked textures of one run. check() throws invalid_input naming the first thing that is wrong.
 struct TemporalTextures {
-  Grid<std::int32_t> mask;          ///< levels 0..65535
-  Offset step;                      ///< d: frame t dithers pixel p with mask texel p + t * d
+  Grid<std::int32_t> mask;  ///< levels 0..65535
+  Offset step;              ///< d: frame t dithers pixel p with mask texel p + t * d
   /// Scatter form, each of the mask's size: empty (never retarget), one (plain), or
   /// (2 * motion_range + 1)^2 variants row by row, the plain one in the middle.
   std::vector<Grid<Offset>> moves = {};
-  int motion_range = 0;             ///< 0..8
+  int motion_range = 0;  ///< 0..8
 
   void check() const;
   /// The tile for a motion within the range.
@@ -72,8 +72,8 @@ Offset tile_shift(Extent tile, Offset step, std::int64_t frame);
 
 /// The blocks within which seeds are sorted.
 struct SortBlocks {
-  int side = 8;       ///< 2, 4, 8 or 16 pixels
-  Offset origin;      ///< the grid's first block starts at -origin; 0..side-1 each
+  int side = 8;   ///< 2, 4, 8 or 16 pixels
+  Offset origin;  ///< the grid's first block starts at -origin; 0..side-1 each
 };
 
 /// The grid of frame `frame`: at rest, or moved by a random offset each frame.
@@ -111,11 +111,11 @@ Offset choose_motion(const Grid<PixelMotion>& motion, int range);
 
 /// The algorithm alone, without a renderer: every pixel's value is sample(seed, 0)^2.
 struct FlatModel {
-  Extent screen{256, 256};   ///< sides a power of two, for the spectrum
+  Extent screen{256, 256};  ///< sides a power of two, for the spectrum
   int block = 8;
-  bool jitter = false;       ///< of the block grid
-  bool retarget = true;      ///< with the plain tile
-  int frames = 8;            ///< frames after the first
+  bool jitter = false;   ///< of the block grid
+  bool retarget = true;  ///< with the plain tile
+  int frames = 8;        ///< frames after the first
   std::uint64_t seed = 1;
 };
 
