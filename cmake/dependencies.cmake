@@ -6,6 +6,7 @@ find_package(TBB REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
+find_package(Eigen3 3.4 REQUIRED)
 find_package(Threads REQUIRED)
 # The CMake configuration of Debian's OpenImageIO 2.4 names files that are not packaged.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)

@@ -1,0 +1,133 @@
+// The thresholds of the checks, in one place, each with its reason.
+//
+// All are on figures of ranks, so a mask passes or fails alike in any encoding. Where chance alone moves a figure
+// the threshold is so many standard deviations of that chance, never a constant tuned by hand.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "bn/spectrum.h"
+
+namespace bn {
+namespace {
+
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+/// Upper limits of the four lower bands. The fifth needs none: by Parseval it holds the rest.
+using BandLimits = std::array<double, 4>;
+
+/// A good two-dimensional mask reads .00003 | .0003 | .0035 | .054 (void-and-cluster, sigma 1.5), one
+/// of a generator that leaves a start pixel's energy behind .015 in the lowest band. The limits
+/// stand near the geometric middle where both sides are known, and at three to ten times the good value elsewhere.
+constexpr BandLimits kBlueLimits{0.002, 0.004, 0.02, 0.15};
+
+/// Slices of a spatiotemporal mask share their quality with time: .0008 at most in the lowest band, .0016 |
+/// .016 | .215 in the next; a broken generator reads .016.
+constexpr BandLimits kSliceLimits{0.004, 0.01, 0.05, 0.4};
+
+/// Mean of a pixel over time, as power: 1 where frames are independent, about .01 in a good volume.
+constexpr double kTemporalLimit = 0.05;
+
+/// An annulus of a single texture scatters like white noise: 0 dB, and averaged over annuli -0.5 .. 0 with a
+/// standard deviation of 0.35 dB at 32 x 32. A Bayer matrix reads above +10.
+constexpr double kAnisotropyMeanMargin_db = 1.5;
+/// The largest of all annuli of white noise stays below +7 dB in 200 textures of any size.
+constexpr double kAnisotropyMaxMargin_db = 10.0;
+/// Averaging lowers the background by 10 log10 K. No method is isotropic without end, so more than ten
+/// textures ask no more than ten.
+constexpr std::int64_t kMostAveraged = 10;
+
+/// Band powers of white noise scatter by 1/sqrt(independent frequencies); below this many they are skewed.
+constexpr double kLeastIndependent = 16.0;
+constexpr double kWhiteDeviations = 5.0;
+
+/// Counts of a flat mask differ from N / bins by less than one, and 8 bit rounding may add a little.
+constexpr double kHistogramMargin = 0.05;
+
+class Judge {
+ public:
+  explicit Judge(const FiguresOfMerit& figures) : figures_(figures) {}
+
+  /// NaN, a figure that this texture does not have, passes.
+  void expect(std::string figure, double value, double low, double high) {
+    if (std::isnan(value) || (value >= low && value <= high)) return;
+    failures_.push_back({std::move(figure), value, low, high});
+  }
+
+  void expect_content() {
+    if (figures_.peak > 0.0) return;
+    failures_.push_back({"peak", figures_.peak, 0.0, kAny});  // a constant texture is no noise at all
+  }
+
+  void expect_bands(const BandLimits& limits) {
+    for (std::size_t b = 0; b < limits.size(); ++b) {
+      expect(fmt::format("bands[{}]", b), figures_.bands.mean[b], 0.0, limits[b]);
+    }
+  }
+
+  void expect_white_bands() {
+    for (std::size_t b = 0; b < kBandEdges.size(); ++b) {
+      const double independent = 0.5 * static_cast<double>(figures_.bands.count[b] * averaged());
+      if (independent < kLeastIndependent) continue;
+      const double tolerance = kWhiteDeviations / std::sqrt(independent);
+      expect(fmt::format("bands[{}]", b), figures_.bands.mean[b], 1.0 - tolerance, 1.0 + tolerance);
+    }
+  }
+
+  void expect_isotropy() {
+    const auto textures = static_cast<double>(std::min(averaged(), kMostAveraged));
+    const double background_db = -10.0 * std::log10(textures);
+    expect("anisotropy_db_mean", figures_.anisotropy_db_mean, -kAny, background_db + kAnisotropyMeanMargin_db);
+    expect("anisotropy_db_max", figures_.anisotropy_db_max, -kAny, background_db + kAnisotropyMaxMargin_db);
+  }
+
+  void expect_flat_histogram() {
+    const double expected = std::max(1.0, static_cast<double>(figures_.shape.count()) / kHistogramBins);
+    expect("histogram_max_deviation", figures_.histogram_max_deviation, 0.0, 1.0 / expected + kHistogramMargin);
+  }
+
+  void expect_still_mean() { expect("temporal_power_at_0", figures_.temporal_power_at_0, 0.0, kTemporalLimit); }
+
+  void expect_volume() {
+    if (figures_.shape.depth > 1) return;
+    failures_.push_back({"depth", static_cast<double>(figures_.shape.depth), 2.0, kMaxSpectrumSide});
+  }
+
+  std::vector<CheckFailure> failures() && { return std::move(failures_); }
+
+ private:
+  /// Periodograms in the average; the slices of a volume are averaged too.
+  std::int64_t averaged() const { return figures_.textures * figures_.shape.depth; }
+
+  const FiguresOfMerit& figures_;
+  std::vector<CheckFailure> failures_;
+};
+
+}  // namespace
+
+std::vector<CheckFailure> check(const FiguresOfMerit& figures, Check kind) {
+  Judge judge(figures);
+  judge.expect_content();
+  judge.expect_isotropy();
+  switch (kind) {
+    case Check::blue:
+      judge.expect_bands(kBlueLimits);
+      judge.expect_flat_histogram();
+      break;
+    case Check::white:
+      judge.expect_white_bands();
+      break;
+    case Check::stbn:
+      judge.expect_volume();
+      judge.expect_bands(kSliceLimits);
+      judge.expect_still_mean();
+      judge.expect_flat_histogram();
+      break;
+  }
+  return std::move(judge).failures();
+}
+
+}  // namespace bn

@@ -1,0 +1,111 @@
+// Figures of merit: what is left of a spectrum when it must fit on one line.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bn/spectrum.h"
+#include "spectrum/transform.h"
+
+namespace bn {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Annuli with fewer frequencies, 16 independent ones, are too noisy to be a mean's or maximum's part.
+constexpr std::int64_t kLeastFrequencies = 32;
+/// Annuli of the corner, cut off circles of few frequencies, are joined to this many.
+constexpr std::int64_t kCornerFrequencies = 64;
+
+void find_peak(const RadialCurve& curve, FiguresOfMerit& figures) {
+  figures.peak = 0.0;
+  figures.peak_frequency = kNaN;
+  const auto consider = [&](double power, double frequency) {
+    if (power <= figures.peak) return;
+    figures.peak = power;
+    figures.peak_frequency = frequency;
+  };
+  // The corner: annuli from the outermost inwards, joined; its frequency is their mean.
+  std::size_t end = curve.power.size();
+  double power = 0.0, moment = 0.0;
+  std::int64_t count = 0;
+  while (end > 0 && count < kCornerFrequencies) {
+    --end;
+    if (curve.count[end] == 0) continue;
+    power += curve.power[end] * static_cast<double>(curve.count[end]);
+    moment += curve.frequency[end] * curve.power[end] * static_cast<double>(curve.count[end]);
+    count += curve.count[end];
+  }
+  for (std::size_t j = 0; j < end; ++j) {
+    if (curve.count[j] > 0) consider(curve.power[j], curve.frequency[j]);
+  }
+  if (power > 0.0) consider(power / static_cast<double>(count), moment / power);
+}
+
+void find_anisotropy(const RadialCurve& curve, FiguresOfMerit& figures) {
+  double sum = 0.0, largest = -std::numeric_limits<double>::infinity();
+  int annuli = 0;
+  for (std::size_t j = 0; j < curve.power.size(); ++j) {
+    if (curve.count[j] < kLeastFrequencies || std::isnan(curve.anisotropy_db[j])) continue;
+    sum += curve.anisotropy_db[j];
+    largest = std::max(largest, curve.anisotropy_db[j]);
+    ++annuli;
+  }
+  figures.anisotropy_db_mean = annuli > 0 ? sum / annuli : kNaN;
+  figures.anisotropy_db_max = annuli > 0 ? largest : kNaN;
+}
+
+std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
+
+template <class Values>
+std::string array(const Values& values) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max_deviation) {
+  if (power.shape.depth > 1) {
+    FiguresOfMerit figures = figures_of_merit(project(power, Projection::xy), histogram_max_deviation);
+    figures.shape = power.shape;
+    figures.textures = power.textures;
+    figures.temporal_power_at_0 = project(power, Projection::z).half[0];
+    return figures;
+  }
+  FiguresOfMerit figures{.shape = power.shape, .textures = power.textures, .bands = band_power(power)};
+  const RadialCurve curve = radial_power(power);
+  find_peak(curve, figures);
+  find_anisotropy(curve, figures);
+  for (std::size_t s = 0; s < kResidualSigmas.size(); ++s) {
+    figures.gauss_residual_db[s] = gauss_residual_db(power, kResidualSigmas[s]);
+  }
+  figures.histogram_max_deviation = histogram_max_deviation;
+  return figures;
+}
+
+Analysis analyse(std::span<const double> values, Shape shape, double low, double high, const Execution& execution) {
+  check_shape(shape, static_cast<std::int64_t>(values.size()), "analysis");
+  check_finite(values, shape, "analysis", execution);
+  const auto bins = static_cast<int>(std::min<std::int64_t>(kHistogramBins, shape.count()));
+  const double deviation = histogram_max_deviation(histogram(values, low, high, bins));
+  PowerSpectrum power = power_spectrum(midranks(values, execution), shape, execution);
+  FiguresOfMerit figures = figures_of_merit(power, deviation);
+  return {std::move(power), figures};
+}
+
+std::string to_json(const FiguresOfMerit& figures) {
+  std::string text = fmt::format(
+      "{{\"width\": {}, \"height\": {}, \"depth\": {}, \"textures\": {}, \"bands\": {}, \"peak\": {}, "
+      "\"peak_frequency\": {}, \"anisotropy_db_mean\": {}, \"anisotropy_db_max\": {}, \"gauss_residual_db\": {}, "
+      "\"histogram_max_deviation\": {}",
+      figures.shape.width, figures.shape.height, figures.shape.depth, figures.textures, array(figures.bands.mean),
+      number(figures.peak), number(figures.peak_frequency), number(figures.anisotropy_db_mean),
+      number(figures.anisotropy_db_max), array(figures.gauss_residual_db), number(figures.histogram_max_deviation));
+  if (figures.shape.depth > 1) text += ", \"temporal_power_at_0\": " + number(figures.temporal_power_at_0);
+  return text + "}";
+}
+
+}  // namespace bn

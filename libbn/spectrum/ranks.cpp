@@ -1,0 +1,175 @@
+// Ranks of values, and what follows from them: thresholds and histograms.
+//
+// Problem: the same mask comes as 8 bit, 16 bit or float, its values spaced differently and some
+// equal; the figures should not care. Sorting 4096^2 values by comparisons would take longer than the transform.
+// Method: integers in a range not much longer than the data are counted; others are sorted by a
+// least-significant-digit radix sort of the bits of the double, whose order is made that of the values.
+// Digits that all values share (the low bits of what was 8 bit or float) cost nothing.
+// Invariant: equal values get equal ranks, their mean; the order of equal values decides nothing.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include "bn/spectrum.h"
+#include "spectrum/transform.h"
+
+namespace bn {
+namespace {
+
+/// Longest table of counts for a small picture.
+constexpr double kSmallRange = 65536.0;
+
+bool all_integers(std::span<const double> values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return v == std::trunc(v); });
+}
+
+/// Whether the values are low..low + N-1, each once.
+bool is_permutation(std::span<const double> values, double low) {
+  std::vector<bool> seen(values.size());
+  for (const double value : values) {
+    const auto at = static_cast<std::size_t>(value - low);
+    if (seen[at]) return false;
+    seen[at] = true;
+  }
+  return true;
+}
+
+std::vector<double> ranks_by_counting(std::span<const double> values, double low, double high) {
+  std::vector<std::uint32_t> count(static_cast<std::size_t>(high - low) + 1);
+  for (const double value : values) ++count[static_cast<std::size_t>(value - low)];
+  std::vector<double> rank_of(count.size());
+  std::uint64_t before = 0;
+  for (std::size_t level = 0; level < count.size(); ++level) {
+    rank_of[level] = static_cast<double>(before) + 0.5 * (static_cast<double>(count[level]) - 1.0);
+    before += count[level];
+  }
+  std::vector<double> rank(values.size());
+  for (std::size_t i = 0; i < rank.size(); ++i) rank[i] = rank_of[static_cast<std::size_t>(values[i] - low)];
+  return rank;
+}
+
+/// Bits whose order as unsigned integers is the order of the values; the two zeros are equal.
+std::uint64_t sort_key(double value) {
+  const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);
+  const std::uint64_t sign = std::uint64_t{1} << 63;
+  return (bits & sign) != 0 ? ~bits : bits | sign;
+}
+
+struct KeyedIndex {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+std::vector<KeyedIndex> sorted(std::span<const double> values) {
+  constexpr int kDigitBits = 11;
+  constexpr std::uint64_t kDigits = std::uint64_t{1} << kDigitBits;
+  std::vector<KeyedIndex> from(values.size()), to(values.size());
+  std::uint64_t all_set = ~std::uint64_t{0}, any_set = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    from[i] = {sort_key(values[i]), static_cast<std::uint32_t>(i)};
+    all_set &= from[i].key;
+    any_set |= from[i].key;
+  }
+  for (int shift = 0; shift < 64; shift += kDigitBits) {
+    const auto digit = [&](std::uint64_t key) { return (key >> shift) & (kDigits - 1); };
+    if (digit(all_set) == digit(any_set)) continue;
+    std::array<std::uint32_t, kDigits> start{};
+    for (const KeyedIndex& entry : from) ++start[digit(entry.key)];
+    std::uint32_t before = 0;
+    for (std::uint32_t& at : start) before += std::exchange(at, before);
+    for (const KeyedIndex& entry : from) to[start[digit(entry.key)]++] = entry;
+    from.swap(to);
+  }
+  return from;
+}
+
+std::vector<double> ranks_by_sorting(std::span<const double> values) {
+  const std::vector<KeyedIndex> order = sorted(values);
+  std::vector<double> rank(values.size());
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t last = first;
+    while (last + 1 < order.size() && order[last + 1].key == order[first].key) ++last;
+    const double mean = 0.5 * (static_cast<double>(first) + static_cast<double>(last));
+    for (; first <= last; ++first) rank[order[first].index] = mean;
+  }
+  return rank;
+}
+
+}  // namespace
+
+std::vector<double> midranks(std::span<const double> values, const Execution& execution) {
+  const auto count = static_cast<std::int64_t>(values.size());
+  if (count > std::numeric_limits<std::uint32_t>::max()) {
+    throw Error({.code = ErrorCode::over_limit,
+                 .what = fmt::format("{} values to rank", count),
+                 .where = "ranks",
+                 .limit = "below 2^32",
+                 .remedy = "analyse a part"});
+  }
+  if (values.empty()) return {};
+  check_finite(values, {static_cast<int>(std::min<std::int64_t>(count, kMaxSpectrumSide)), 1, 1}, "ranks", execution);
+  check_memory(execution, static_cast<std::uint64_t>(count) * (2 * sizeof(KeyedIndex) + sizeof(double)), "ranks");
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  const double range = *high - *low + 1.0;
+  const double n = static_cast<double>(count);
+  if (range <= std::max(kSmallRange, 4.0 * n) && all_integers(values)) {
+    if (range == n && is_permutation(values, *low)) {
+      std::vector<double> rank(values.begin(), values.end());
+      for (double& r : rank) r -= *low;
+      return rank;
+    }
+    return ranks_by_counting(values, *low, *high);
+  }
+  return ranks_by_sorting(values);
+}
+
+std::vector<double> thresholded(std::span<const double> values, double level, const Execution& execution) {
+  if (!(level > 0.0 && level < 1.0)) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = fmt::format("grey level {}", level),
+                 .where = "threshold",
+                 .limit = "above 0, below 1",
+                 .remedy = ""});
+  }
+  std::vector<double> picture = midranks(values, execution);
+  const double limit = level * static_cast<double>(values.size());
+  for (double& value : picture) value = value + 0.5 < limit ? 1.0 : 0.0;
+  return picture;
+}
+
+std::vector<std::int64_t> histogram(std::span<const double> values, double low, double high, int bins) {
+  if (!(std::isfinite(low) && std::isfinite(high) && low < high) || bins < 1) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = fmt::format("{} bins over {}..{}", bins, low, high),
+                 .where = "histogram",
+                 .limit = "at least one bin over a range that is not empty",
+                 .remedy = ""});
+  }
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(bins));
+  const double scale = bins / (high - low);
+  for (const double value : values) {
+    // A NaN lands in the first bin; callers that must not see one have checked.
+    const double at = std::min((value - low) * scale, bins - 1.0);
+    ++counts[at > 0.0 ? static_cast<std::size_t>(at) : 0];
+  }
+  return counts;
+}
+
+double histogram_max_deviation(std::span<const std::int64_t> counts) {
+  std::int64_t total = 0;
+  for (const std::int64_t count : counts) total += count;
+  if (total == 0) return 0.0;
+  const double expected = static_cast<double>(total) / static_cast<double>(counts.size());
+  double deviation = 0.0;
+  for (const std::int64_t count : counts) {
+    deviation = std::max(deviation, std::abs(static_cast<double>(count) / expected - 1.0));
+  }
+  return deviation;
+}
+
+}  // namespace bn

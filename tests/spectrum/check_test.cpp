@@ -1,0 +1,135 @@
+// Protects: the checks pass what is good and fail what is not, naming the figure.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "bn/noise.h"
+#include "direct_dft.h"
+#include "reference_mask.h"
+
+namespace bn {
+namespace {
+
+std::vector<std::string> failures(const std::vector<double>& values, Shape shape, double range, Check kind) {
+  std::vector<std::string> names;
+  for (const CheckFailure& f : check(analyse(values, shape, 0.0, range).figures, kind)) names.push_back(f.figure);
+  return names;
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::vector<double> baked_mask(int side, double sigma_px) {
+  const auto rank = void_and_cluster({.size = {side, side}, .sigma_px = sigma_px});
+  return {rank.begin(), rank.end()};
+}
+
+/// Adds a floor of `power` to the lowest band of a mask of ranks: a wave of random phase at each of
+/// its frequencies.
+std::vector<double> with_raised_floor(std::vector<double> ranks, int side, double power) {
+  const double n = static_cast<double>(ranks.size());
+  // |F| = amplitude * N / 2 and power = |F|^2 / (N * N^2 / 12), for ranks 0..N-1.
+  const double amplitude = 2.0 * std::sqrt(power * n / 12.0);
+  const int reach = side / 16;
+  std::uint64_t draw = 0;
+  for (int ky = -reach; ky <= reach; ++ky) {
+    for (int kx = 0; kx <= reach; ++kx) {
+      if (kx * kx + ky * ky > reach * reach || (kx == 0 && ky <= 0)) continue;
+      const double phase = 2.0 * std::numbers::pi * static_cast<double>(random_bits(1, 0, draw++) >> 11) * 0x1p-53;
+      for (int i = 0; i < side * side; ++i) {
+        ranks[static_cast<std::size_t>(i)] +=
+            amplitude * std::cos(2.0 * std::numbers::pi * (kx * (i % side) + ky * (i / side)) / side + phase);
+      }
+    }
+  }
+  return midranks(ranks);
+}
+
+std::vector<double> bayer(int side) {
+  std::vector<double> ranks;
+  for (int i = 0; i < side * side; ++i) {
+    const int x = i % side, y = i / side;
+    int rank = 0;
+    for (int bit = 1; bit < side; bit *= 2) rank = 4 * rank + (((x ^ y) & bit) != 0 ? 2 : 0) + ((y & bit) != 0 ? 1 : 0);
+    ranks.push_back(rank);
+  }
+  return ranks;
+}
+
+TEST(CheckBlue, PassesGoodMasks) {
+  for (const int side : {32, 64, 128}) {
+    for (const double sigma : {1.5, 1.9}) {
+      EXPECT_TRUE(failures(baked_mask(side, sigma), {side, side}, side * side, Check::blue).empty()) << side;
+    }
+  }
+}
+
+TEST(CheckBlue, PassesPetersMasks) {
+  for (const char* name : {"peters_cc0_128_HDR_L_0.png", "peters_cc0_128_LDR_LLL1_0.png", "peters_cc0_64_HDR_L_0.png"}) {
+    const auto mask = test::reference_mask(name);
+    if (!mask) GTEST_SKIP() << "reference masks are not beside this checkout";
+    EXPECT_TRUE(failures(mask->values, mask->shape, mask->range, Check::blue).empty()) << name;
+  }
+}
+
+TEST(CheckBlue, FailsARaisedFloor) {
+  const auto mask = with_raised_floor(baked_mask(128, 1.9), 128, 0.015);
+  EXPECT_NEAR(analyse(mask, {128, 128}, 0.0, 128 * 128).figures.bands.mean[0], 0.015, 0.001);
+  EXPECT_EQ(failures(mask, {128, 128}, 128 * 128, Check::blue), std::vector<std::string>{"bands[0]"});
+}
+
+TEST(CheckBlue, FailsWhiteNoise) {
+  for (const int side : {32, 64, 128}) {
+    const auto names = failures(test::white_values(side * side, 1), {side, side}, 1.0, Check::blue);
+    EXPECT_TRUE(contains(names, "bands[0]") && contains(names, "bands[3]"));
+  }
+}
+
+TEST(CheckBlue, FailsABayerMatrixForItsIsotropy) {
+  for (const int side : {16, 64, 256}) {
+    EXPECT_TRUE(contains(failures(bayer(side), {side, side}, side * side, Check::blue), "anisotropy_db_mean")) << side;
+  }
+}
+
+TEST(CheckBlue, FailsASkewedHistogram) {
+  auto mask = baked_mask(64, 1.9);
+  for (double& rank : mask) rank = rank * rank / 4096.0;
+  EXPECT_EQ(failures(mask, {64, 64}, 4096, Check::blue), std::vector<std::string>{"histogram_max_deviation"});
+}
+
+TEST(CheckBlue, FailsAConstant) {
+  EXPECT_TRUE(contains(failures(std::vector<double>(4096, 1.0), {64, 64}, 4096, Check::blue), "peak"));
+}
+
+TEST(CheckWhite, PassesWhiteNoiseOfAnySize) {
+  for (const Shape shape : {Shape{16, 16}, Shape{32, 48}, Shape{64, 64}, Shape{200, 100}, Shape{32, 32, 16}}) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      EXPECT_TRUE(failures(test::white_values(shape.count(), seed), shape, 1.0, Check::white).empty()) << seed;
+    }
+  }
+}
+
+TEST(CheckWhite, FailsBlueNoise) {
+  EXPECT_TRUE(contains(failures(baked_mask(64, 1.9), {64, 64}, 4096, Check::white), "bands[1]"));
+}
+
+TEST(CheckStbn, FailsMasksThatAreIndependentInTime) {
+  const Shape shape{32, 32, 16};
+  std::vector<double> volume;
+  for (std::uint64_t z = 0; z < 16; ++z) {
+    const auto rank = void_and_cluster({.size = {32, 32}, .seed = z + 1});
+    volume.insert(volume.end(), rank.begin(), rank.end());
+  }
+  EXPECT_EQ(failures(volume, shape, 1024.0, Check::stbn), std::vector<std::string>{"temporal_power_at_0"});
+}
+
+TEST(CheckStbn, FailsAPicture) {
+  EXPECT_TRUE(contains(failures(baked_mask(32, 1.9), {32, 32}, 1024.0, Check::stbn), "depth"));
+}
+
+}  // namespace
+}  // namespace bn

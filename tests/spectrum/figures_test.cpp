@@ -1,0 +1,125 @@
+// Protects: the figures of merit of textures whose figures are known.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "direct_dft.h"
+#include "reference_mask.h"
+
+namespace bn {
+namespace {
+
+FiguresOfMerit figures_of(const std::vector<double>& values, Shape shape, double low = 0.0, double high = 1.0) {
+  return analyse(values, shape, low, high).figures;
+}
+
+std::vector<double> wave(Shape shape, double fx, double fy) {
+  std::vector<double> values;
+  for (int y = 0; y < shape.height; ++y) {
+    for (int x = 0; x < shape.width; ++x) {
+      values.push_back(std::cos(2.0 * std::numbers::pi * (fx * x + fy * y) + 0.4));
+    }
+  }
+  return values;
+}
+
+TEST(Figures, PeakIsWhereTheWaveIs) {
+  const Shape shape{128, 96};
+  for (const std::pair<double, double>& f : {std::pair{0.25, 0.125}, {0.03125, 0.0}, {0.0, 0.375}, {0.2, 0.1234}}) {
+    const FiguresOfMerit figures = figures_of(wave(shape, f.first, f.second), shape, -1.0, 1.0);
+    // Half an annulus on the grid; the last wave is off it and leaks into the next one.
+    EXPECT_NEAR(figures.peak_frequency, std::hypot(f.first, f.second), 1.0 / 128);
+  }
+}
+
+TEST(Figures, CheckerboardPeaksInTheCorner) {
+  for (const int side : {16, 64, 128}) {
+    std::vector<double> values;
+    for (int i = 0; i < side * side; ++i) values.push_back((i / side + i) % 2);
+    const FiguresOfMerit figures = figures_of(values, {side, side});
+    EXPECT_NEAR(figures.peak_frequency, std::sqrt(0.5), 0.5 / side);
+    EXPECT_EQ(figures.bands.mean[0], 0.0);
+  }
+}
+
+TEST(Figures, ConstantHasNone) {
+  const FiguresOfMerit figures = figures_of(std::vector<double>(64 * 64, 0.3), {64, 64});
+  EXPECT_EQ(figures.peak, 0.0);
+  EXPECT_TRUE(std::isnan(figures.peak_frequency));
+  EXPECT_TRUE(std::isnan(figures.anisotropy_db_mean));
+  EXPECT_TRUE(std::isnan(figures.gauss_residual_db[0]));
+  EXPECT_EQ(figures.histogram_max_deviation, 255.0);
+}
+
+TEST(Figures, TinyTexturesHaveThoseTheyCan) {
+  for (const Shape shape : {Shape{1}, Shape{2}, Shape{1, 3}, Shape{2, 2}, Shape{1, 1, 2}, Shape{3, 3, 3}}) {
+    const FiguresOfMerit figures = figures_of(test::white_values(shape.count(), 1), shape);
+    EXPECT_FALSE(std::isnan(figures.peak));
+    EXPECT_TRUE(std::isnan(figures.bands.mean[0]));
+    EXPECT_NO_THROW(nlohmann::json::parse(to_json(figures)));
+  }
+}
+
+TEST(Figures, EncodingChangesNone) {
+  const Shape shape{64, 64};
+  std::vector<double> bent = test::white_values(shape.count(), 6);
+  const Analysis plain = analyse(bent, shape, 0.0, 1.0);
+  for (double& v : bent) v = 1e8 * v * v * v;
+  EXPECT_EQ(analyse(bent, shape, 0.0, 1e8).power.half, plain.power.half);
+}
+
+TEST(Figures, ThreadsChangeNoBit) {
+  const Shape shape{200, 100, 3};
+  const auto values = test::white_values(shape.count(), 6);
+  const std::string one = to_json(analyse(values, shape, 0.0, 1.0, {.threads = 1}).figures);
+  EXPECT_EQ(to_json(analyse(values, shape, 0.0, 1.0, {.threads = 7}).figures), one);
+}
+
+TEST(Figures, JsonHasTheirNames) {
+  const auto json = nlohmann::json::parse(to_json(figures_of(test::white_values(8 * 8 * 8, 1), {8, 8, 8})));
+  for (const char* name : {"bands", "peak", "peak_frequency", "anisotropy_db_mean", "anisotropy_db_max",
+                           "gauss_residual_db", "histogram_max_deviation", "temporal_power_at_0", "textures"}) {
+    EXPECT_TRUE(json.contains(name)) << name;
+  }
+  EXPECT_EQ(json["bands"].size(), 5u);
+  EXPECT_TRUE(json["bands"][0].is_null());  // 8 x 8 has no frequency in 0 < f <= 1/16
+  EXPECT_TRUE(json["bands"][1].is_number());
+}
+
+// One texture, so the peak and the anisotropy are within the spread of one (16 independent frequencies in an
+// annulus and up): the values published for the average of ten are 1.50 at .352, -9.9 dB with -10 as background.
+TEST(Figures, PetersMasks) {
+  const auto mask = test::reference_mask("peters_cc0_128_HDR_L_0.png");
+  if (!mask) GTEST_SKIP() << "reference masks are not beside this checkout";
+  const FiguresOfMerit figures = figures_of(mask->values, mask->shape, 0.0, mask->range);
+  EXPECT_NEAR(figures.bands.mean[0], 0.00003, 0.00001);
+  EXPECT_NEAR(figures.bands.mean[1], 0.0003, 0.00005);
+  EXPECT_NEAR(figures.bands.mean[2], 0.0035, 0.0003);
+  EXPECT_NEAR(figures.bands.mean[3], 0.053, 0.003);
+  EXPECT_NEAR(figures.gauss_residual_db[0], -11.4, 0.1);
+  EXPECT_NEAR(figures.gauss_residual_db[1], -24.3, 0.1);
+  EXPECT_NEAR(figures.gauss_residual_db[2], -34.2, 0.1);
+  EXPECT_NEAR(figures.peak, 1.50, 0.15);
+  EXPECT_NEAR(figures.peak_frequency, 0.352, 0.02);
+  EXPECT_NEAR(figures.anisotropy_db_mean, 0.0, 0.5);
+  EXPECT_EQ(figures.histogram_max_deviation, 0.0);
+
+  const auto half = figures_of(thresholded(mask->values, 0.5), mask->shape);
+  EXPECT_NEAR(half.peak, 1.41, 0.15);
+  EXPECT_NEAR(half.peak_frequency, 0.375, 0.02);
+}
+
+TEST(Figures, PetersChannelsAreAlike) {
+  for (int channel = 0; channel < 4; ++channel) {
+    const auto mask = test::reference_mask("peters_cc0_64_LDR_RGBA_0.png", channel);
+    if (!mask) GTEST_SKIP() << "reference masks are not beside this checkout";
+    const FiguresOfMerit figures = figures_of(mask->values, mask->shape, 0.0, mask->range);
+    EXPECT_NEAR(figures.gauss_residual_db[1], -24.3, 0.5);
+    EXPECT_TRUE(check(figures, Check::blue).empty());
+  }
+}
+
+}  // namespace
+}  // namespace bn
