@@ -1,67 +1,111 @@
-// The retarget problem as a sparse linear assignment problem: rows are seeds, columns are the pixels they
-// land on, both in the coordinates of problem.h, and row q may take the columns q + k of its window, at
-// cost(A(q), B(q + k)).
+// The retarget problem as a sparse linear assignment problem.
+//
+// Rows are seeds, columns the pixels they land on, both in the coordinates of problem.h. Row q may take the
+// columns q + k of its window, at cost(A(q), B(q + k)); nothing is stored per arc. Columns carry prices. By
+// weak duality every perfect assignment costs at least
+//     sum over rows of min over columns of (cost + price)  -  sum over columns of price,
+// with equality iff each row has a column that is cheapest for it: such an assignment is optimal, and the
+// prices prove it.
+//
+// Three steps, one file each:
+//   auction.cpp         finds a nearly optimal assignment, fast, with prices in 1/64 of a level;
+//   shortest_paths.cpp  rounds the prices to integers, frees the rows that are not content with their
+//                       column, and assigns them again by shortest augmenting paths: exact;
+//   certificate.cpp     computes the bound afresh from the definition.
+// The answer is right whatever the auction leaves behind; the auction only makes it quick.
 
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
-#include "retarget/problem.h"
+#include "core/progress.h"
+#include "retarget/layout.h"
 
 namespace bn {
 
-struct AssignmentProblem {
-  Grid<std::int32_t> row_level;     ///< A(q) = D(q - d)
-  Grid<std::int32_t> column_level;  ///< B(w) = D(w + m)
-  std::vector<ReachRow> window;
-  Metric metric = Metric::l1;
-  bool wrap = true;
-
-  AssignmentProblem(const Grid<std::int32_t>& levels, const RetargetOptions& options)
-      : row_level(shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y})),
-        column_level(shifted(levels, options.motion.x, options.motion.y)),
-        window(reach_rows(levels.size(), options)),
-        metric(options.metric),
-        wrap(options.wrap) {}
-};
-
 inline constexpr std::int32_t kUnassigned = -1;
 
-/// Rows to columns with column prices: the state that solvers hand on to each other.
-struct Assignment {
-  std::vector<std::int32_t> column_of;  ///< per row, or kUnassigned
-  std::vector<std::int64_t> price;      ///< per column
+/// Rows, columns, prices. T is int32 where prices fit, else int64: the same steps, so the same result.
+template <class T>
+struct Market {
+  /// What a column outside a tile without wrap costs; above all that is real.
+  static constexpr T kBlocked = std::numeric_limits<T>::max() / 2;
+  /// Prices stay at or below this, costs below kMaxCost, so that no sum of the solver overflows.
+  static constexpr T kMaxPrice = kBlocked / 2;
+  static constexpr T kMaxCost = kBlocked / 16;
+
+  Market(const Grid<std::int32_t>& levels, const RetargetOptions& options);
+
+  PaddedLayout layout;
+  std::vector<ReachRow> window;
+  bool square;  ///< metric L2
+
+  // All by cell. Levels are multiplied by level_scale() while the auction runs.
+  std::vector<std::int32_t> row_level;
+  std::vector<std::int32_t> column_level;
+  std::vector<T> price;
+  std::vector<std::int32_t> column_of;  ///< per row
+  std::vector<std::int32_t> row_of;     ///< per column
+  T price_limit = kMaxPrice;            ///< lower only in tests
+
+  T cost(std::int32_t row, std::int32_t column) const {
+    const T difference = T{row_level[static_cast<std::size_t>(row)]} - column_level[static_cast<std::size_t>(column)];
+    return square ? difference * difference : difference < 0 ? -difference : difference;
+  }
+  void assign(std::int32_t row, std::int32_t column) {
+    column_of[static_cast<std::size_t>(row)] = column;
+    row_of[static_cast<std::size_t>(column)] = row;
+  }
+
+  /// To the auction's scale: levels times `level_scale(metric)`, before any price is set.
+  void refine(int level_factor);
+  /// Back from it, prices rounded to whole units of cost.
+  void coarsen(int level_divisor);
+
+  /// Prices of the pixels, by index.
+  std::vector<std::int64_t> pixel_prices() const;
+  /// The moves that a perfect assignment stands for, in the coordinates of seeds, u = q - d.
+  Grid<Offset> moves(const RetargetOptions& options) const;
 };
 
-/// Calls visit(column, k) for each column in row u's window, by rising k.y, then k.x.
-template <class Visit>
-void for_each_column(const AssignmentProblem& problem, int x, int y, Visit&& visit) {
-  const auto [width, height] = problem.row_level.size();
-  for (const ReachRow& reach : problem.window) {
-    int to_y = y + reach.y;
-    if (to_y < 0 || to_y >= height) {
-      if (!problem.wrap) continue;
-      to_y += to_y < 0 ? height : -height;
-    }
-    for (int k_x = reach.x_low; k_x <= reach.x_high; ++k_x) {
-      int to_x = x + k_x;
-      if (to_x < 0 || to_x >= width) {
-        if (!problem.wrap) continue;
-        to_x += to_x < 0 ? width : -width;
-      }
-      visit(to_y * width + to_x, Offset{k_x, reach.y});
-    }
-  }
-}
+/// Prices and costs of the auction are in 1/kPriceScale of a unit of cost.
+inline constexpr int kPriceScaleBits = 6;
+inline constexpr int kPriceScale = 1 << kPriceScaleBits;
 
-/// Frees every row whose column is not its cheapest at the given prices, then completes the assignment by
-/// shortest augmenting paths. On return it is perfect and optimal, and its prices prove it.
-void complete_by_shortest_paths(const AssignmentProblem& problem, Assignment& state, const Execution& execution);
+/// What levels are multiplied by so that costs are multiplied by kPriceScale.
+constexpr int level_scale(Metric metric) { return metric == Metric::l2 ? 1 << (kPriceScaleBits / 2) : kPriceScale; }
 
-/// The bound that prices prove, by weak duality: every perfect assignment costs at least
-///     sum over rows of min over columns of (cost + price) - sum over columns of price.
-/// Trusts nothing but `price`.
-std::int64_t certified_lower_bound(const AssignmentProblem& problem, const std::vector<std::int64_t>& price);
+enum class Outcome {
+  done,        ///< every row has a column
+  incomplete,  ///< gave up on some rows (auction only)
+  overflow,    ///< a price passed the limit; the market is of no more use
+};
+
+/// One level of the auction: on return each assigned row's column is within `epsilon` (raised where a price war
+/// would take too long; the value used comes back) of its cheapest.
+struct AuctionLevel {
+  Outcome outcome;
+  std::int64_t epsilon;
+};
+template <class T>
+AuctionLevel run_auction(Market<T>& market, std::int64_t epsilon, const Execution& execution, ProgressMeter& progress);
+
+/// Frees every row whose column is not its cheapest, then completes the assignment, optimally.
+template <class T>
+Outcome complete_by_shortest_paths(Market<T>& market, const Execution& execution);
+
+/// The bound that prices (by pixel index, in units of cost / 2^scale_bits) prove for every permutation
+/// within reach, rounded up to a whole energy. From the definition alone, in exact integers.
+std::int64_t certified_lower_bound(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                                   const std::vector<std::int64_t>& price, int scale_bits);
+
+/// Which integers carry prices; both give the same result.
+enum class PriceWidth { automatic, bits32, bits64 };
+
+/// solve_retarget() with the width chosen, for tests; throws over_limit where bits32 do not suffice.
+RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                              const Execution& execution, PriceWidth width);
 
 }  // namespace bn

@@ -1,102 +1,227 @@
-#include <limits>
-#include <queue>
+// The exact finish: integer prices, and shortest augmenting paths from all free rows at once.
+//
+// The state is a partial assignment with integer prices in which each assigned row holds a column that is
+// cheapest for it. The reduced cost of an arc is its cost + price less the row's cheapest: 0 on assigned
+// arcs, at least 0 on all. A phase grows shortest-path trees (Dijkstra) from all free rows together, through
+// columns into the rows that hold them, up to a length `limit`. Raising the price of each column
+// reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then each
+// tree that has reached a free column assigns its root along the path. The trees share no column, so
+// all of them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
+//
+// After an auction nearly all free rows are one unit of cost from content, so limit = 1 and most searches
+// walk along arcs of cost 0 only; limit doubles when a phase assigns few of the rows that are left.
+//
+// H. W. Kuhn, "The Hungarian method for the assignment problem", 1955; R. Jonker and A. Volgenant, "A shortest
+// augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987; A. V. Goldberg
+// and R. Kennedy, "An efficient cost scaling algorithm for the assignment problem", 1995, for taking many
+// paths in a phase.
 
-#include "retarget/assignment.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "retarget/shortest_paths.cpp"
+#include <hwy/foreach_target.h>
 
+#include <cstring>
+
+#include "retarget/window-inl.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace bn {
-namespace {
+namespace HWY_NAMESPACE {
 
-constexpr std::int64_t kInfinite = std::numeric_limits<std::int64_t>::max();
-
-}  // namespace
-
-void complete_by_shortest_paths(const AssignmentProblem& problem, Assignment& state, const Execution& execution) {
-  const int width = problem.row_level.width();
-  const auto count = static_cast<std::int32_t>(problem.row_level.count());
-  auto& price = state.price;
-  const auto cost = [&](std::int32_t row, std::int32_t column) {
-    return level_cost(problem.row_level[row], problem.column_level[column], problem.metric);
-  };
-  const auto cheapest = [&](std::int32_t row) {
-    std::int64_t least = kInfinite;
-    for_each_column(problem, row % width, row / width,
-                    [&](std::int32_t column, Offset) { least = std::min(least, cost(row, column) + price[column]); });
-    return least;
-  };
-
-  std::vector<std::int32_t> row_of(count, kUnassigned);
-  for (std::int32_t row = 0; row < count; ++row) {
-    auto& column = state.column_of[row];
-    if (column == kUnassigned) continue;
-    if (cost(row, column) + price[column] == cheapest(row)) {
-      row_of[column] = row;
-    } else {
-      column = kUnassigned;
-    }
+template <class T, bool kSquare>
+class PathSearch {
+ public:
+  PathSearch(Market<T>& market, const Execution& execution)
+      : market_(market), execution_(execution), window_(market), free_rows_(free_discontent_rows(window_, market, T{0})) {
+    if (free_rows_.empty()) return;
+    const auto cells = static_cast<std::size_t>(market.layout.cells());
+    distance_.resize(cells);
+    parent_.resize(cells);
+    root_.resize(cells);
   }
 
-  std::vector<std::int64_t> distance(count, kInfinite);
-  std::vector<std::int32_t> parent(count);  // of a column: the row it was reached from
-  std::vector<std::int32_t> touched, settled;
-  using Entry = std::pair<std::int64_t, std::int32_t>;
-  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  for (std::int32_t root = 0; root < count; ++root) {
-    if (state.column_of[root] != kUnassigned) continue;
-    throw_if_stopped(execution);
-    std::int32_t row = root;
-    std::int64_t base = 0, row_price = cheapest(root);
-    std::int32_t end = kUnassigned;
-    for (;;) {
-      for_each_column(problem, row % width, row / width, [&](std::int32_t column, Offset) {
-        const std::int64_t reached = base + cost(row, column) + price[column] - row_price;
-        if (reached >= distance[column]) return;
-        if (distance[column] == kInfinite) touched.push_back(column);
-        distance[column] = reached;
-        parent[column] = row;
-        queue.push({reached, column});
-      });
-      while (queue.top().first != distance[queue.top().second]) queue.pop();
-      const auto [next, column] = queue.top();
-      queue.pop();
-      base = next;
-      if (row_of[column] == kUnassigned) {
-        end = column;
-        break;
+  Outcome run() {
+    constexpr T kMostLimit = Market<T>::kMaxPrice / 4;
+    T limit = 1;
+    while (!free_rows_.empty()) {
+      grow_trees(limit);
+      if (!raise_prices(limit)) return Outcome::overflow;
+      const std::size_t before = free_rows_.size();
+      augment();
+      if ((before - free_rows_.size()) * 4 < before) limit = std::min<T>(limit * 2, kMostLimit);
+    }
+    return Outcome::done;
+  }
+
+ private:
+  static constexpr T kUnreached = Market<T>::kBlocked;
+
+  /// A column reached at a distance beyond the one being settled; `order` makes the order total.
+  struct Later {
+    T distance;
+    std::uint32_t order;
+    std::int32_t column;
+    bool operator<(const Later& other) const {  // for a heap with the nearest on top
+      return distance != other.distance ? distance > other.distance : order > other.order;
+    }
+  };
+
+  void grow_trees(T limit) {
+    std::fill(distance_.begin(), distance_.end(), kUnreached);
+    settled_.clear();
+    free_columns_.clear();
+    later_.clear();
+    for (std::size_t tree = 0; tree < free_rows_.size(); ++tree) {
+      const std::int32_t row = free_rows_[tree];
+      reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree), limit);
+    }
+    T base = 0;
+    for (std::size_t next = 0;;) {
+      for (; next < settled_.size(); ++next) {
+        const std::int32_t column = settled_[next];
+        const std::int32_t row = market_.row_of[static_cast<std::size_t>(column)];
+        const T paid = market_.cost(row, column) + market_.price[static_cast<std::size_t>(column)];
+        reach_from(row, base, paid, root_[static_cast<std::size_t>(column)], limit);
+        if (next % 8192 == 0) throw_if_stopped(execution_);
       }
-      settled.push_back(column);
-      row = row_of[column];
-      row_price = cost(row, column) + price[column];
+      while (!later_.empty() && stale(later_.front())) pop_later();
+      if (later_.empty()) return;
+      base = later_.front().distance;
+      while (!later_.empty() && later_.front().distance == base) {
+        if (!stale(later_.front())) settled_.push_back(later_.front().column);
+        pop_later();
+      }
     }
-    for (const std::int32_t column : settled) price[column] += base - distance[column];
-    for (std::int32_t column = end;;) {
-      const std::int32_t owner = parent[column];
-      row_of[column] = owner;
-      std::swap(column, state.column_of[owner]);
-      if (owner == root) break;
-    }
-    for (const std::int32_t column : touched) distance[column] = kInfinite;
-    touched.clear();
-    settled.clear();
-    queue = {};
   }
+
+  bool stale(const Later& entry) const { return distance_[static_cast<std::size_t>(entry.column)] != entry.distance; }
+  void pop_later() {
+    std::pop_heap(later_.begin(), later_.end());
+    later_.pop_back();
+  }
+
+  /// Offers the columns of `row`, itself at distance `base` and paying `paid`, their distance through it.
+  HWY_INLINE void reach_from(std::int32_t row, T base, T paid, std::int32_t tree, T limit) {
+    const typename Window<T, kSquare>::D d;
+    const auto too_far = hn::Set(d, static_cast<T>(limit + 1));
+    const auto offset = hn::Set(d, static_cast<T>(base - paid));
+    const auto level = window_.row_level(row);
+    for (const Run& run : window_.runs()) {
+      const auto reached = hn::Add(window_.values(level, row, run), offset);
+      const auto known = hn::LoadU(d, distance_.data() + static_cast<std::size_t>(row + run.shift));
+      const auto nearer = hn::And(hn::Lt(reached, hn::Min(known, too_far)),
+                                  hn::FirstN(d, static_cast<std::size_t>(run.columns)));
+      if (HWY_LIKELY(hn::AllFalse(d, nearer))) continue;
+      HWY_ALIGN T distances[hn::MaxLanes(typename Window<T, kSquare>::D())];
+      hn::Store(reached, d, distances);
+      std::uint8_t bytes[8] = {};
+      hn::StoreMaskBits(d, nearer, bytes);
+      std::uint64_t bits;
+      std::memcpy(&bits, bytes, sizeof(bits));
+      for (; bits != 0; bits &= bits - 1) {
+        const int lane = __builtin_ctzll(bits);
+        reach(market_.layout.home(row + run.shift + lane), row, distances[lane], base, tree, limit);
+      }
+    }
+  }
+
+  void reach(std::int32_t column, std::int32_t row, T distance, T base, std::int32_t tree, T limit) {
+    const auto at = static_cast<std::size_t>(column);
+    const bool first = distance_[at] == kUnreached;
+    market_.layout.store(distance_, column, distance);
+    parent_[at] = row;
+    root_[at] = tree;
+    if (market_.row_of[at] == kUnassigned) {
+      if (first) free_columns_.push_back(column);
+    } else if (distance == base && distance < limit) {
+      settled_.push_back(column);
+    } else if (distance < limit) {
+      later_.push_back({distance, order_++, column});
+      std::push_heap(later_.begin(), later_.end());
+    }
+  }
+
+  bool raise_prices(T limit) {
+    const auto raise = [&](std::int32_t column) {
+      const T distance = distance_[static_cast<std::size_t>(column)];
+      if (distance >= limit) return true;
+      const T price = market_.price[static_cast<std::size_t>(column)];
+      if (price > market_.price_limit - (limit - distance)) return false;
+      market_.layout.store(market_.price, column, static_cast<T>(price + (limit - distance)));
+      return true;
+    };
+    for (const std::int32_t column : settled_) {
+      if (!raise(column)) return false;
+    }
+    for (const std::int32_t column : free_columns_) {
+      if (!raise(column)) return false;
+    }
+    return true;
+  }
+
+  /// Assigns the root of each tree that has reached a free column, along the path to the first it met.
+  void augment() {
+    std::vector<bool> assigned(free_rows_.size(), false);
+    for (std::int32_t column : free_columns_) {
+      const auto tree = static_cast<std::size_t>(root_[static_cast<std::size_t>(column)]);
+      if (assigned[tree]) continue;
+      assigned[tree] = true;
+      for (std::int32_t row = kUnassigned; row != free_rows_[tree];) {
+        row = parent_[static_cast<std::size_t>(column)];
+        const std::int32_t given_up = market_.column_of[static_cast<std::size_t>(row)];
+        market_.assign(row, column);
+        column = given_up;
+      }
+    }
+    std::size_t left = 0;
+    for (std::size_t tree = 0; tree < free_rows_.size(); ++tree) {
+      if (!assigned[tree]) free_rows_[left++] = free_rows_[tree];
+    }
+    free_rows_.resize(left);
+  }
+
+  Market<T>& market_;
+  const Execution& execution_;
+  Window<T, kSquare> window_;
+  std::vector<std::int32_t> free_rows_;     // the trees' roots
+  std::vector<T> distance_;                 // per column
+  std::vector<std::int32_t> parent_;        // per column: the row it was reached from
+  std::vector<std::int32_t> root_;          // per column: the tree
+  std::vector<std::int32_t> settled_;       // assigned columns nearer than the limit, by distance
+  std::vector<std::int32_t> free_columns_;  // reached, in order of discovery
+  std::vector<Later> later_;
+  std::uint32_t order_ = 0;
+};
+
+Outcome Complete32(Market<std::int32_t>& market, const Execution& execution) {
+  return market.square ? PathSearch<std::int32_t, true>(market, execution).run()
+                       : PathSearch<std::int32_t, false>(market, execution).run();
 }
 
-std::int64_t certified_lower_bound(const AssignmentProblem& problem, const std::vector<std::int64_t>& price) {
-  const auto [width, height] = problem.row_level.size();
-  // Sums of prices may pass 64 bits on the way; the bound itself does not.
-  __extension__ __int128 bound = 0;
-  for (std::int32_t y = 0; y < height; ++y) {
-    for (std::int32_t x = 0; x < width; ++x) {
-      std::int64_t least = kInfinite;
-      const std::int32_t level = problem.row_level(x, y);
-      for_each_column(problem, x, y, [&](std::int32_t column, Offset) {
-        least = std::min(least, level_cost(level, problem.column_level[column], problem.metric) + price[column]);
-      });
-      bound += least;
-    }
-  }
-  for (const std::int64_t p : price) bound -= p;
-  return static_cast<std::int64_t>(bound);
+Outcome Complete64(Market<std::int64_t>& market, const Execution& execution) {
+  return market.square ? PathSearch<std::int64_t, true>(market, execution).run()
+                       : PathSearch<std::int64_t, false>(market, execution).run();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace bn
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bn {
+
+HWY_EXPORT(Complete32);
+HWY_EXPORT(Complete64);
+
+template <>
+Outcome complete_by_shortest_paths(Market<std::int32_t>& market, const Execution& execution) {
+  return HWY_DYNAMIC_DISPATCH(Complete32)(market, execution);
+}
+
+template <>
+Outcome complete_by_shortest_paths(Market<std::int64_t>& market, const Execution& execution) {
+  return HWY_DYNAMIC_DISPATCH(Complete64)(market, execution);
 }
 
 }  // namespace bn
+#endif

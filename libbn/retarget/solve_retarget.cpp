@@ -1,48 +1,102 @@
-#include "core/progress.h"
+// solve_retarget: checks, then auction, exact finish and certificate (assignment.h), in 32-bit prices where they
+// fit and in 64-bit ones otherwise.
+
+#include <fmt/format.h>
+
+#include <optional>
+
 #include "retarget/assignment.h"
 
 namespace bn {
 namespace {
 
-/// The moves an assignment stands for, back in the coordinates of seeds, u = q - d.
-Grid<Offset> moves_of(const AssignmentProblem& problem, const std::vector<std::int32_t>& column_of,
-                      const RetargetOptions& options) {
-  Grid<Offset> move(problem.row_level.size());
-  for (int y = 0; y < move.height(); ++y) {
-    for (int x = 0; x < move.width(); ++x) {
-      const int q_x = wrap(std::int64_t{x} + options.step.x, move.width());
-      const int q_y = wrap(std::int64_t{y} + options.step.y, move.height());
-      const std::int32_t mine = column_of[static_cast<std::size_t>(q_y) * move.width() + q_x];
-      Offset k{mine % move.width() - q_x, mine / move.width() - q_y};
-      if (problem.wrap) k = {wrap_centred(k.x, move.width()), wrap_centred(k.y, move.height())};
-      move(x, y) = {k.x + options.motion.x, k.y + options.motion.y};
+/// Where the auction starts: a quarter of the usual distance between a level and the nearest one in its window,
+/// as a cost. Coarser only wastes bids; too fine is put right by the auction itself.
+std::int64_t first_epsilon(const Grid<std::int32_t>& levels, const RetargetOptions& options) {
+  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+  std::int64_t columns = 0;
+  for (const ReachRow& row : reach_rows(levels.size(), options)) columns += row.x_high - row.x_low + 1;
+  const std::int64_t spacing = std::int64_t{*high - *low} * level_scale(options.metric) / (6 * columns);
+  return std::max<std::int64_t>(1, options.metric == Metric::l2 ? spacing * spacing : spacing);
+}
+
+/// Whether energy - bound <= gap * bound.
+bool close_enough(std::int64_t energy, std::int64_t bound, double gap) {
+  return static_cast<double>(energy - bound) <= gap * static_cast<double>(bound);
+}
+
+RetargetTile measured_tile(const Grid<std::int32_t>& levels, const RetargetOptions& options, Grid<Offset> move,
+                           std::int64_t lower_bound) {
+  RetargetTile tile;
+  check_permutation(move, options);
+  tile.start_energy = retarget_energy(levels, Grid<Offset>(levels.size(), options.motion), options);
+  tile.energy = retarget_energy(levels, move, options);
+  tile.lower_bound = lower_bound;
+  tile.move = std::move(move);
+  return tile;
+}
+
+/// Empty where prices outgrow T.
+template <class T>
+std::optional<RetargetTile> solve_with(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                                       const Execution& execution, ProgressMeter& progress) {
+  Market<T> market(levels, options);
+  market.refine(level_scale(options.metric));
+  for (std::int64_t epsilon = first_epsilon(levels, options);;) {
+    const AuctionLevel level = run_auction(market, epsilon, execution, progress);
+    if (level.outcome == Outcome::overflow) {
+      if constexpr (sizeof(T) == 4) return std::nullopt;
+      market = Market<T>(levels, options);  // the finish needs no auction
+      market.refine(level_scale(options.metric));
+      break;
     }
+    if (level.outcome == Outcome::incomplete) break;
+    if (options.gap > 0.0) {
+      const std::int64_t bound = certified_lower_bound(levels, options, market.pixel_prices(), kPriceScaleBits);
+      Grid<Offset> move = market.moves(options);
+      if (close_enough(retarget_energy(levels, move, options), bound, options.gap)) {
+        return measured_tile(levels, options, std::move(move), bound);
+      }
+    }
+    if (level.epsilon == 1) break;
+    epsilon = std::max<std::int64_t>(1, level.epsilon / 4);
   }
-  return move;
+  market.coarsen(level_scale(options.metric));
+  if (complete_by_shortest_paths(market, execution) == Outcome::overflow) return std::nullopt;
+  return measured_tile(levels, options, market.moves(options),
+                       certified_lower_bound(levels, options, market.pixel_prices(), 0));
 }
 
 }  // namespace
 
-RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
-                            const Execution& execution) {
+RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                              const Execution& execution, PriceWidth width) {
   check_options(options);
-  check_levels(levels, options.metric);
+  const std::int64_t largest_cost = check_levels(levels, options.metric);
   thread_count(execution);
   check_memory(execution, levels.count() * 64, "retarget");
   throw_if_stopped(execution);
 
-  const AssignmentProblem problem(levels, options);
-  Assignment state{std::vector<std::int32_t>(levels.count(), kUnassigned), std::vector<std::int64_t>(levels.count(), 0)};
-  complete_by_shortest_paths(problem, state, execution);
+  ProgressMeter progress(execution, levels.count() * 3);
+  std::optional<RetargetTile> tile;
+  if (width != PriceWidth::bits64 && largest_cost * kPriceScale < Market<std::int32_t>::kMaxCost) {
+    tile = solve_with<std::int32_t>(levels, options, execution, progress);
+  }
+  if (!tile && width != PriceWidth::bits32) tile = solve_with<std::int64_t>(levels, options, execution, progress);
+  if (!tile) {
+    throw Error({.code = ErrorCode::over_limit,
+                 .what = fmt::format("prices outgrow {} bits", width == PriceWidth::bits32 ? 32 : 64),
+                 .where = "retarget",
+                 .limit = "",
+                 .remedy = "use fewer levels, or the metric l1"});
+  }
+  progress.finish();
+  return *std::move(tile);
+}
 
-  RetargetTile tile;
-  tile.move = moves_of(problem, state.column_of, options);
-  check_permutation(tile.move, options);
-  tile.start_energy = retarget_energy(levels, Grid<Offset>(levels.size(), options.motion), options);
-  tile.energy = retarget_energy(levels, tile.move, options);
-  tile.lower_bound = certified_lower_bound(problem, state.price);
-  ProgressMeter(execution, 1).finish();
-  return tile;
+RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                            const Execution& execution) {
+  return solve_with_width(levels, options, execution, PriceWidth::automatic);
 }
 
 }  // namespace bn
