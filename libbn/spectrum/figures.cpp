@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bn/spectrum.h"
+#include "spectrum/ranks.h"
 #include "spectrum/transform.h"
 
 namespace bn {
@@ -91,7 +92,10 @@ Analysis analyse(std::span<const double> values, Shape shape, double low, double
   check_finite(values, shape, "analysis", execution);
   const auto bins = static_cast<int>(std::min<std::int64_t>(kHistogramBins, shape.count()));
   const double deviation = histogram_max_deviation(histogram(values, low, high, bins));
-  PowerSpectrum power = power_spectrum(midranks(values, execution), shape, execution);
+  // A mask of ranks is its own ranks, and power does not see the offset: no copy.
+  PowerSpectrum power = is_permutation_of_a_range(values)
+                            ? power_spectrum(values, shape, execution)
+                            : power_spectrum(midranks(values, execution), shape, execution);
   FiguresOfMerit figures = figures_of_merit(power, deviation);
   return {std::move(power), figures};
 }

@@ -2,9 +2,8 @@
 //
 // Problem: the same mask comes as 8 bit, 16 bit or float, its values spaced differently and some
 // equal; the figures should not care. Sorting 4096^2 values by comparisons would take longer than the transform.
-// Method: integers in a range not much longer than the data are counted; others are sorted by a
-// least-significant-digit radix sort of the bits of the double, whose order is made that of the values.
-// Digits that all values share (the low bits of what was 8 bit or float) cost nothing.
+// Method: integers in a range not much longer than the data are counted; others are sorted by the bits of the
+// double, whose order is made that of the values.
 // Invariant: equal values get equal ranks, their mean; the order of equal values decides nothing.
 
 #include <fmt/format.h>
@@ -14,8 +13,10 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "bn/spectrum.h"
+#include "spectrum/ranks.h"
 #include "spectrum/transform.h"
 
 namespace bn {
@@ -26,17 +27,6 @@ constexpr double kSmallRange = 65536.0;
 
 bool all_integers(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return v == std::trunc(v); });
-}
-
-/// Whether the values are low..low + N-1, each once.
-bool is_permutation(std::span<const double> values, double low) {
-  std::vector<bool> seen(values.size());
-  for (const double value : values) {
-    const auto at = static_cast<std::size_t>(value - low);
-    if (seen[at]) return false;
-    seen[at] = true;
-  }
-  return true;
 }
 
 std::vector<double> ranks_by_counting(std::span<const double> values, double low, double high) {
@@ -65,8 +55,10 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
+/// By key. The leading 33 bits in which the keys differ go through three passes of a radix sort;
+/// keys that agree in them, few neighbours as a rule, are then sorted by comparison.
 std::vector<KeyedIndex> sorted(std::span<const double> values) {
-  constexpr int kDigitBits = 11;
+  constexpr int kDigitBits = 11, kPasses = 3;
   constexpr std::uint64_t kDigits = std::uint64_t{1} << kDigitBits;
   std::vector<KeyedIndex> from(values.size()), to(values.size());
   std::uint64_t all_set = ~std::uint64_t{0}, any_set = 0;
@@ -75,15 +67,29 @@ std::vector<KeyedIndex> sorted(std::span<const double> values) {
     all_set &= from[i].key;
     any_set |= from[i].key;
   }
-  for (int shift = 0; shift < 64; shift += kDigitBits) {
-    const auto digit = [&](std::uint64_t key) { return (key >> shift) & (kDigits - 1); };
-    if (digit(all_set) == digit(any_set)) continue;
-    std::array<std::uint32_t, kDigits> start{};
-    for (const KeyedIndex& entry : from) ++start[digit(entry.key)];
+  const auto differing_bits = static_cast<int>(std::bit_width(all_set ^ any_set));
+  const int low_bit = std::max(0, differing_bits - kPasses * kDigitBits);
+
+  const auto digit = [&](const KeyedIndex& entry, int pass) {
+    return (entry.key >> (low_bit + pass * kDigitBits)) & (kDigits - 1);
+  };
+  std::array<std::array<std::uint32_t, kDigits>, kPasses> start{};
+  for (const KeyedIndex& entry : from) {
+    for (int pass = 0; pass < kPasses; ++pass) ++start[pass][digit(entry, pass)];
+  }
+  for (int pass = 0; pass < kPasses; ++pass) {
     std::uint32_t before = 0;
-    for (std::uint32_t& at : start) before += std::exchange(at, before);
-    for (const KeyedIndex& entry : from) to[start[digit(entry.key)]++] = entry;
+    for (std::uint32_t& at : start[pass]) before += std::exchange(at, before);
+    for (const KeyedIndex& entry : from) to[start[pass][digit(entry, pass)]++] = entry;
     from.swap(to);
+  }
+
+  const auto by_key = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; };
+  for (auto first = from.begin(); first != from.end();) {
+    auto last = first + 1;
+    while (last != from.end() && last->key >> low_bit == first->key >> low_bit) ++last;
+    if (last - first > 1) std::sort(first, last, by_key);
+    first = last;
   }
   return from;
 }
@@ -102,6 +108,21 @@ std::vector<double> ranks_by_sorting(std::span<const double> values) {
 
 }  // namespace
 
+bool is_permutation_of_a_range(std::span<const double> values) {
+  if (values.empty()) return true;
+  const double low = *std::min_element(values.begin(), values.end());
+  const double n = static_cast<double>(values.size());
+  std::vector<bool> seen(values.size());
+  for (const double value : values) {
+    const double at = value - low;
+    if (!(at < n)) return false;
+    const auto index = static_cast<std::size_t>(at);
+    if (static_cast<double>(index) != at || seen[index]) return false;
+    seen[index] = true;
+  }
+  return true;
+}
+
 std::vector<double> midranks(std::span<const double> values, const Execution& execution) {
   const auto count = static_cast<std::int64_t>(values.size());
   if (count > std::numeric_limits<std::uint32_t>::max()) {
@@ -116,13 +137,7 @@ std::vector<double> midranks(std::span<const double> values, const Execution& ex
   check_memory(execution, static_cast<std::uint64_t>(count) * (2 * sizeof(KeyedIndex) + sizeof(double)), "ranks");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double range = *high - *low + 1.0;
-  const double n = static_cast<double>(count);
-  if (range <= std::max(kSmallRange, 4.0 * n) && all_integers(values)) {
-    if (range == n && is_permutation(values, *low)) {
-      std::vector<double> rank(values.begin(), values.end());
-      for (double& r : rank) r -= *low;
-      return rank;
-    }
+  if (range <= std::max(kSmallRange, 4.0 * static_cast<double>(count)) && all_integers(values)) {
     return ranks_by_counting(values, *low, *high);
   }
   return ranks_by_sorting(values);

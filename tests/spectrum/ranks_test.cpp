@@ -35,6 +35,10 @@ TEST(Midranks, EqualTheirDefinition) {
   auto almost = permutation;
   almost[3] = almost[4];  // right range, but not each value once
   for (const auto& values : {coarse, wide, permutation, almost}) EXPECT_EQ(midranks(values), direct_midranks(values));
+  auto near = uniform;  // all but one agree in the leading bits
+  for (double& v : near) v = 1.0 + std::floor(v * 300) * 0x1p-52;
+  near[250] = -1e300;
+  EXPECT_EQ(midranks(near), direct_midranks(near));
   const std::vector<double> zeros{0.5, -0.0, 0.0, -1e-310, 1e-310, -0.5};
   EXPECT_EQ(midranks(zeros), direct_midranks(zeros));
   EXPECT_TRUE(midranks(std::vector<double>{}).empty());
