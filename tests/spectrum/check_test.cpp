@@ -23,9 +23,10 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+std::vector<double> values_of(const Grid<std::uint32_t>& rank) { return {rank.begin(), rank.end()}; }
+
 std::vector<double> baked_mask(int side, double sigma_px) {
-  const auto rank = void_and_cluster({.size = {side, side}, .sigma_px = sigma_px});
-  return {rank.begin(), rank.end()};
+  return values_of(void_and_cluster({.size = {side, side}, .sigma_px = sigma_px}));
 }
 
 /// Adds a floor of `power` to the lowest band of a mask of ranks: a wave of random phase at each of
@@ -47,17 +48,6 @@ std::vector<double> with_raised_floor(std::vector<double> ranks, int side, doubl
     }
   }
   return midranks(ranks);
-}
-
-std::vector<double> bayer(int side) {
-  std::vector<double> ranks;
-  for (int i = 0; i < side * side; ++i) {
-    const int x = i % side, y = i / side;
-    int rank = 0;
-    for (int bit = 1; bit < side; bit *= 2) rank = 4 * rank + (((x ^ y) & bit) != 0 ? 2 : 0) + ((y & bit) != 0 ? 1 : 0);
-    ranks.push_back(rank);
-  }
-  return ranks;
 }
 
 TEST(CheckBlue, PassesGoodMasks) {
@@ -91,8 +81,19 @@ TEST(CheckBlue, FailsWhiteNoise) {
 
 TEST(CheckBlue, FailsABayerMatrixForItsIsotropy) {
   for (const int side : {16, 64, 256}) {
-    EXPECT_TRUE(contains(failures(bayer(side), {side, side}, side * side, Check::blue), "anisotropy_db_mean")) << side;
+    EXPECT_TRUE(contains(failures(values_of(bayer_mask(side)), {side, side}, side * side, Check::blue), "anisotropy_db_mean")) << side;
   }
+}
+
+TEST(CheckBlue, FailsTheOtherBaselines) {
+  const Shape shape{128, 128};
+  const auto fails = [&](const Grid<std::uint32_t>& rank, double range) {
+    return !failures(values_of(rank), shape, range, Check::blue).empty();
+  };
+  EXPECT_TRUE(fails(white_noise_mask({128, 128}, 1), 16384));
+  EXPECT_TRUE(fails(interleaved_gradient_mask({128, 128}), 16384));
+  EXPECT_TRUE(fails(r2_mask({128, 128}), 16384));
+  EXPECT_TRUE(fails(tiled(void_and_cluster({.size = {32, 32}}), {128, 128}), 1024));
 }
 
 TEST(CheckBlue, FailsASkewedHistogram) {

@@ -1,8 +1,9 @@
-// bn/noise.h - floor 1: blue-noise masks.
+// bn/noise.h - floor 1: blue-noise masks, and the patterns they are compared with.
 
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "bn/core.h"
 
@@ -32,5 +33,33 @@ struct VoidAndClusterOptions {
 /// Threads: execution.threads. Cost: see docs/methods.md for measured figures; memory about 12 bytes
 /// a pixel.
 Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const Execution& execution = {});
+
+// --- baselines: what masks are compared with -------------------------------------------------------
+// Ranks 0..N-1 like a mask's; ties in a pattern's value go to the lowest index. Sides 1..16384.
+// Decided by integers or by IEEE products in a written order: the same bytes everywhere.
+// Errors: invalid_input (a side outside its range). Cost: N log N; one thread.
+
+/// Independent ranks: a random permutation.
+Grid<std::uint32_t> white_noise_mask(Extent size, std::uint64_t seed);
+
+/// The recursive ordered-dither matrix; `side` a power of two. Source: B. E. Bayer, "An optimum method
+/// for two-level rendition of continuous-tone pictures", ICC 1973.
+Grid<std::uint32_t> bayer_mask(int side);
+
+/// Interleaved gradient noise, frac(52.9829189 frac(0.06711056 x + 0.00583715 y)), in double. Not toroidal.
+/// Source: J. Jimenez, "Next generation post processing in Call of Duty: Advanced Warfare", SIGGRAPH 2014.
+Grid<std::uint32_t> interleaved_gradient_mask(Extent size);
+
+/// The lattice frac(x / g + y / g^2), g the plastic number, the additive recurrence R2 read along x and y.
+/// Not toroidal. Source: M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+Grid<std::uint32_t> r2_mask(Extent size);
+
+/// Slice t = 0..depth-1 of a still mask shifted by the golden ratio: rank + floor(N frac(t / phi)) modulo N.
+/// In space each slice is nearly as good as the mask; in time each pixel runs through a
+/// one-dimensional low-discrepancy sequence. `mask` holds ranks 0..N-1.
+std::vector<Grid<std::uint32_t>> golden_ratio_slices(const Grid<std::uint32_t>& mask, int depth);
+
+/// A picture of `size` covered with repetitions of `mask`; its values are the mask's.
+Grid<std::uint32_t> tiled(const Grid<std::uint32_t>& mask, Extent size);
 
 }  // namespace bn
