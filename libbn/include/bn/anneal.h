@@ -109,4 +109,32 @@ void check_schedule(const CoolingSchedule& schedule);
 CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals,
                               std::int64_t pixels);
 
+/// Classes of worsenings in traces: class i holds rises of the energy by 2^i .. 2^(i+1) - 1, the last one
+/// all larger ones too.
+inline constexpr int kWorseningClasses = 24;
+
+// --- the problem -----------------------------------------------------------------------------------
+
+/// One image channel that moves with the seeds.
+struct AnnealChannel {
+  Grid<std::int32_t> levels;  ///< each 0..2^24-1; all channels of one size
+  int weight = 1;             ///< 1..1000, of this channel in the sum
+};
+
+/// What to minimise over the permutations that bn/retarget.h describes:
+///     E = sum over channels c of weight_c * sum over u of cost(D_c(u), D_c(u + R(u) + d)),
+/// or, with residual_sigma_px > 0, the energy of what is left of the difference after a blur,
+///     E = sum over c of weight_c * sum over w of (sum over v of g(w - v) * e_c(v))^2,
+/// e_c(w) the level that arrived at w less the level that belongs there, g a Gaussian with integer weights
+/// (cut at 3 sigma; each axis sums to about 2^b, b <= 8 the largest for which energies stay below 2^62). No
+/// assignment solver can handle that one: a seed's cost depends on where the others went.
+struct AnnealProblem {
+  std::vector<AnnealChannel> channels;  ///< 1..16
+  RetargetOptions retarget;             ///< metric must be l2 for a residual; gap is not used
+  double residual_sigma_px = 0.0;       ///< 0, or 0.3..8 pixels
+};
+
+/// The energy of any permutation, recomputed from its definition. Errors: as anneal_retarget().
+std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move);
+
 }  // namespace bn

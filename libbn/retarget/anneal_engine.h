@@ -1,0 +1,62 @@
+// What a chain of Metropolis swaps is to those who drive it: a state that rounds advance.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "retarget/anneal_instance.h"
+
+namespace bn {
+
+/// What happened in some rounds. Sums, so that bands and rounds can be added in any order.
+struct RoundCounts {
+  std::int64_t proposals = 0;
+  std::int64_t accepted = 0;
+  std::int64_t changed = 0;  ///< accepted with a change of energy
+  RoundCounts& operator+=(const RoundCounts& other) {
+    proposals += other.proposals;
+    accepted += other.accepted;
+    changed += other.changed;
+    return *this;
+  }
+};
+
+/// Swaps within reach that would raise the energy, by the size of the rise: class i holds rises of
+/// 2^i .. 2^(i+1) - 1, the last one all larger ones too.
+struct WorseningCounts {
+  std::array<std::int64_t, kWorseningClasses> tried{};
+  std::array<std::int64_t, kWorseningClasses> accepted{};
+  std::int64_t within_reach = 0;  ///< proposals that the reach allows, worsening or not
+  void count(std::int64_t change, bool taken);
+};
+
+/// A chain. What round number `round` draws depends on (seed, chain, round) only.
+class AnnealEngine {
+ public:
+  virtual ~AnnealEngine() = default;
+
+  /// `sweeps` sweeps at one temperature. Counts worsenings where asked; that is slower and changes nothing.
+  virtual RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution& execution,
+                            WorseningCounts* worsenings = nullptr) = 0;
+  /// The running energy: kept by adding changes, always equal to the recomputed one.
+  virtual std::int64_t energy() const = 0;
+  /// The displacement k of the seed at each position.
+  virtual Grid<Offset> displacements() const = 0;
+  /// Continues from there: a valid placement, as displacements() gives.
+  virtual void place(const Grid<Offset>& displacement_at) = 0;
+};
+
+/// The engine for this instance's energy, in the identity k = 0. `instance` must outlive it.
+std::unique_ptr<AnnealEngine> make_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                          std::uint32_t chain);
+
+/// One swap at a time, for any energy: the specification of annealing.
+std::unique_ptr<AnnealEngine> make_scalar_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                                 std::uint32_t chain);
+/// All swaps of one displacement at once, for energies that are sums over pixels.
+std::unique_ptr<AnnealEngine> make_sweep_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                                std::uint32_t chain);
+
+}  // namespace bn

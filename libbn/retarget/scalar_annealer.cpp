@@ -1,0 +1,234 @@
+// The scalar annealer: the specification of the method, one swap at a time.
+//
+// A proposal draws a position p and a displacement s, both uniformly, and swaps the seeds at p and p + s if
+// both stay within reach of their origins and the Metropolis rule takes the change of energy. Drawing is
+// symmetric, so the chain's distribution at a constant temperature is Boltzmann's over the permutations
+// within reach (N. Metropolis et al. 1953). The energy is a policy, a type with energy(), change(p, q) and
+// swap(p, q), so no virtual call is made per proposal.
+//
+// Randomness: proposal i of sweep s of round r draws the Philox block of counter (r low, r high and s, stream
+// and chain, i) under the seed.
+
+#include <bit>
+
+#include "retarget/anneal_engine.h"
+#include "retarget/filtered_energy.h"
+#include "retarget/metropolis.h"
+
+namespace bn {
+namespace {
+
+/// Stream of random numbers; chains count up from it.
+constexpr std::uint32_t kScalarStream = 0x53000000u;
+
+/// The sum over pixels, level by level.
+class PixelSumEnergy {
+ public:
+  explicit PixelSumEnergy(const AnnealInstance& instance)
+      : instance_(&instance), level_(instance.seed_level) {}
+
+  void place(const std::vector<std::int32_t>& origin) {
+    for (std::size_t c = 0; c < level_.size(); ++c) {
+      for (std::size_t w = 0; w < origin.size(); ++w) {
+        level_[c][w] = instance_->seed_level[c][static_cast<std::size_t>(origin[w])];
+      }
+    }
+  }
+  std::int64_t energy() const {
+    std::int64_t sum = 0;
+    for (std::size_t w = 0; w < level_[0].count(); ++w) {
+      for (std::size_t c = 0; c < level_.size(); ++c) sum += cost(c, w, w);
+    }
+    return sum;
+  }
+  std::int64_t change(std::size_t p, std::size_t q) const {
+    std::int64_t sum = 0;
+    for (std::size_t c = 0; c < level_.size(); ++c)
+      sum += cost(c, p, q) + cost(c, q, p) - cost(c, p, p) - cost(c, q, q);
+    return sum;
+  }
+  void swap(std::size_t p, std::size_t q) {
+    for (auto& channel : level_) std::swap(channel[p], channel[q]);
+  }
+
+ private:
+  /// Of the seed now at `from`, at position `at`.
+  std::int64_t cost(std::size_t c, std::size_t from, std::size_t at) const {
+    return instance_->weight[c] *
+           level_cost(level_[c][from], instance_->landing_level[c][at], instance_->options.metric);
+  }
+  const AnnealInstance* instance_;
+  std::vector<Grid<std::int32_t>> level_;  ///< of the seed at each position
+};
+
+/// The blurred residual.
+class FilteredEnergy {
+ public:
+  explicit FilteredEnergy(const AnnealInstance& instance)
+      : instance_(&instance),
+        kernel_(instance.size, instance.residual_sigma_px, largest_residual(instance)),
+        level_(instance.seed_level) {}
+
+  void place(const std::vector<std::int32_t>& origin) {
+    fields_.clear();
+    for (std::size_t c = 0; c < level_.size(); ++c) {
+      Grid<std::int64_t> residual(instance_->size);
+      for (std::size_t w = 0; w < origin.size(); ++w) {
+        level_[c][w] = instance_->seed_level[c][static_cast<std::size_t>(origin[w])];
+        residual[w] = level_[c][w] - instance_->landing_level[c][w];
+      }
+      fields_.emplace_back(kernel_, std::move(residual));
+    }
+  }
+  std::int64_t energy() const {
+    std::int64_t sum = 0;
+    for (std::size_t c = 0; c < fields_.size(); ++c) sum += instance_->weight[c] * fields_[c].energy();
+    return sum;
+  }
+  std::int64_t change(std::size_t p, std::size_t q) const {
+    std::int64_t sum = 0;
+    for (std::size_t c = 0; c < fields_.size(); ++c) {
+      sum += instance_->weight[c] * fields_[c].change(p, q, level_[c][q] - level_[c][p]);
+    }
+    return sum;
+  }
+  void swap(std::size_t p, std::size_t q) {
+    for (std::size_t c = 0; c < fields_.size(); ++c) {
+      const std::int64_t amount = level_[c][q] - level_[c][p];
+      if (amount != 0) fields_[c].apply(p, q, amount);
+      std::swap(level_[c][p], level_[c][q]);
+    }
+  }
+
+ private:
+  /// Weights count as part of it, so that their sum stays within bounds too.
+  static std::int64_t largest_residual(const AnnealInstance& instance) {
+    std::int64_t sum = 0;
+    for (std::size_t c = 0; c < instance.weight.size(); ++c) {
+      std::int32_t most = 0;
+      for (const std::int32_t level : instance.seed_level[c]) most = std::max(most, level);
+      sum += instance.weight[c] * most;
+    }
+    return sum;
+  }
+  const AnnealInstance* instance_;
+  ResidualKernel kernel_;
+  std::vector<Grid<std::int32_t>> level_;
+  std::vector<ResidualField> fields_;
+};
+
+template <class Energy>
+class ScalarEngine final : public AnnealEngine {
+ public:
+  ScalarEngine(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain)
+      : instance_(instance), seed_(seed), chain_(chain), model_(instance) {
+    place(Grid<Offset>(instance.size));
+  }
+
+  RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution& execution,
+                    WorseningCounts* worsenings) override {
+    RoundCounts counts;
+    if (instance_.displacements.empty()) return counts;
+    const float t = single_temperature(temperature);
+    const auto pixels = static_cast<std::uint32_t>(instance_.size.area());
+    for (int sweep = 0; sweep < sweeps; ++sweep) {
+      throw_if_stopped(execution);
+      // A sweep proposes half as many swaps as there are pixels, like a sweep of the other engine.
+      const std::uint32_t proposals = std::max(1u, pixels / 2);
+      for (std::uint32_t i = 0; i < proposals; ++i) {
+        const auto draw =
+            philox({static_cast<std::uint32_t>(round),
+                    static_cast<std::uint32_t>(round >> 32) ^ static_cast<std::uint32_t>(sweep) << 24,
+                    kScalarStream + chain_, i},
+                   {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
+        propose(draw, t, counts, worsenings);
+      }
+    }
+    return counts;
+  }
+
+  std::int64_t energy() const override { return energy_; }
+
+  Grid<Offset> displacements() const override {
+    Grid<Offset> result(instance_.size);
+    for (std::size_t w = 0; w < origin_.size(); ++w) result[w] = displacement(w, origin_[w]);
+    return result;
+  }
+
+  void place(const Grid<Offset>& displacement_at) override {
+    const auto [width, height] = instance_.size;
+    origin_.resize(displacement_at.count());
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const Offset k = displacement_at(x, y);
+        origin_[static_cast<std::size_t>(y) * width + x] =
+            wrap(std::int64_t{y} - k.y, height) * width + wrap(std::int64_t{x} - k.x, width);
+      }
+    }
+    model_.place(origin_);
+    energy_ = model_.energy();
+  }
+
+ private:
+  void propose(const std::array<std::uint32_t, 4>& draw, float temperature, RoundCounts& counts,
+               WorseningCounts* worsenings) {
+    const auto [width, height] = instance_.size;
+    const std::size_t p = random_below(draw[0], static_cast<std::uint32_t>(origin_.size()));
+    const Offset s =
+        instance_
+            .displacements[random_below(draw[1], static_cast<std::uint32_t>(instance_.displacements.size()))];
+    ++counts.proposals;
+
+    const int x = static_cast<int>(p) % width + s.x, y = static_cast<int>(p) / width + s.y;
+    if (!instance_.options.wrap && (x >= width || y < 0 || y >= height)) return;
+    const std::size_t q =
+        static_cast<std::size_t>(wrap(y, height)) * width + static_cast<std::size_t>(wrap(x, width));
+    if (!within_reach(displacement(p, origin_[q]), instance_.options)) return;
+    if (!within_reach(displacement(q, origin_[p]), instance_.options)) return;
+
+    const std::int64_t change = model_.change(p, q);
+    const bool taken = change <= metropolis_threshold(draw[2], temperature);
+    if (worsenings != nullptr) worsenings->count(change, taken);
+    if (!taken) return;
+    model_.swap(p, q);
+    std::swap(origin_[p], origin_[q]);
+    energy_ += change;
+    ++counts.accepted;
+    counts.changed += change != 0;
+  }
+
+  /// k of a seed from `origin` at position w: the nearest of those that name the same pixel.
+  Offset displacement(std::size_t w, std::int32_t origin) const {
+    const auto [width, height] = instance_.size;
+    const Offset k{static_cast<int>(w) % width - origin % width,
+                   static_cast<int>(w) / width - origin / width};
+    return instance_.options.wrap ? Offset{wrap_centred(k.x, width), wrap_centred(k.y, height)} : k;
+  }
+
+  const AnnealInstance& instance_;
+  std::uint64_t seed_;
+  std::uint32_t chain_;
+  Energy model_;
+  std::vector<std::int32_t> origin_;  ///< of the seed at each position
+  std::int64_t energy_ = 0;
+};
+
+}  // namespace
+
+void WorseningCounts::count(std::int64_t change, bool taken) {
+  ++within_reach;
+  if (change <= 0) return;
+  const int log = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(change))) - 1;
+  const auto i = static_cast<std::size_t>(std::min(log, kWorseningClasses - 1));
+  ++tried[i];
+  accepted[i] += taken;
+}
+
+std::unique_ptr<AnnealEngine> make_scalar_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                                 std::uint32_t chain) {
+  if (instance.residual_sigma_px > 0.0)
+    return std::make_unique<ScalarEngine<FilteredEnergy>>(instance, seed, chain);
+  return std::make_unique<ScalarEngine<PixelSumEnergy>>(instance, seed, chain);
+}
+
+}  // namespace bn
