@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 
+#include "bake/job.h"
 #include "bake/recipe_reader.h"
 #include "bn/bake.h"
 
@@ -117,8 +118,10 @@ class RecipeParser {
     table.name_it(fmt::format("{} '{}'", kind, name));
     const auto [earlier, is_new] = lines_of_names_.emplace(name, table.line("name"));
     if (!is_new) {
-      table.mistake("name", fmt::format("is used already, in line {}", earlier->second), "",
-                    "give every entry a name of its own");
+      table.mistake("name",
+                    earlier->second == 0 ? "is taken by the bake itself"
+                                         : fmt::format("is used already, in line {}", earlier->second),
+                    "", "give every entry a name of its own");
     }
     return name;
   }
@@ -190,7 +193,7 @@ class RecipeParser {
     }
     mask.options.sigma_px = table.number("sigma", mask.options.sigma_px, 0.3, 16.0);
     mask.options.initial_density =
-        table.number("initial_density", mask.options.initial_density, 0.0, 0.5, true);
+        table.number("initial_density", mask.options.initial_density, 0.0, 0.5);
     mask.options.seed = static_cast<std::uint64_t>(table.integer(
         "seed", static_cast<std::int64_t>(mask.options.seed), 0, std::numeric_limits<std::int64_t>::max()));
     mask.options.cutoff_px = static_cast<int>(table.integer("cutoff", mask.options.cutoff_px, 0, 64));
@@ -288,12 +291,12 @@ class RecipeParser {
                         set.mask, name_of(set.levels)),
             "", fmt::format("add {{ path = \"...\", type = \"{}\" }} to its outputs", name_of(set.levels)));
       }
-      if (2 * set.motion >= std::min(mask.options.size.width, mask.options.size.height) && set.motion > 0) {
-        mistakes_.add(
-            set.line,
-            fmt::format("retarget '{}': motion {} is larger than the tile of {}x{}", set.name, set.motion,
-                        mask.options.size.width, mask.options.size.height),
-            fmt::format("0..{}", (std::min(mask.options.size.width, mask.options.size.height) - 1) / 2));
+      const Extent size = mask.options.size;
+      if (set.motion > largest_motion(size)) {
+        mistakes_.add(set.line,
+                      fmt::format("retarget '{}': motion {} is larger than the tile of {}x{}", set.name,
+                                  set.motion, size.width, size.height),
+                      fmt::format("0..{}", largest_motion(size)));
       }
     }
   }
@@ -301,7 +304,7 @@ class RecipeParser {
   Mistakes mistakes_;
   TableReader root_;
   Recipe& recipe_;
-  std::map<std::string, int> lines_of_names_;
+  std::map<std::string, int> lines_of_names_ = {{"contact_sheet", 0}};
   std::map<std::string, int> lines_of_paths_ = {{"manifest.json", 0}};
 };
 

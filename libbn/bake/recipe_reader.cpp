@@ -58,29 +58,6 @@ std::string range_text(std::int64_t least, std::int64_t most) { return fmt::form
 
 }  // namespace
 
-void Mistakes::add(int line, std::string what, std::string limit, std::string remedy) {
-  found_.emplace_back(line, ErrorInfo{.code = ErrorCode::invalid_input,
-                                      .what = std::move(what),
-                                      .where = line > 0 ? fmt::format("{}:{}", file_, line) : file_,
-                                      .limit = std::move(limit),
-                                      .remedy = std::move(remedy)});
-}
-
-void Mistakes::throw_if_any() const {
-  if (found_.empty()) return;
-  auto ordered = found_;
-  std::stable_sort(ordered.begin(), ordered.end(), [](auto& a, auto& b) { return a.first < b.first; });
-  if (ordered.size() == 1) throw Error(ordered.front().second);
-  // The first twenty are enough to work on, and keep a hostile file from flooding a terminal.
-  constexpr std::size_t kShown = 20;
-  std::string all = fmt::format("{} mistakes", ordered.size());
-  for (std::size_t i = 0; i < std::min(kShown, ordered.size()); ++i) {
-    all += fmt::format("\n  {}", Error(ordered[i].second).what());
-  }
-  if (ordered.size() > kShown) all += fmt::format("\n  ... and {} more", ordered.size() - kShown);
-  throw Error({.code = ErrorCode::invalid_input, .what = all, .where = file_, .limit = "", .remedy = ""});
-}
-
 int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
 std::string nearest_word(std::string_view word, const std::vector<std::string>& words) {
@@ -141,18 +118,17 @@ std::int64_t TableReader::integer(std::string_view key, std::int64_t otherwise, 
   return otherwise;
 }
 
-double TableReader::number(std::string_view key, double otherwise, double least, double most, bool open) {
+double TableReader::number(std::string_view key, double otherwise, double least, double most) {
   const toml::node* node = find(key);
   if (!node) return otherwise;
-  const std::string limit =
-      open ? fmt::format("above {}, at most {}", least, most) : fmt::format("{}..{}", least, most);
+  const std::string limit = fmt::format("{}..{}", least, most);
   if (!node->is_number()) {
     mistake(key, fmt::format("is {}", type_name(*node)), "a number " + limit);
     return otherwise;
   }
   const double value = *node->value<double>();
   // Written so that NaN fails.
-  if ((open ? value > least : value >= least) && value <= most) return value;
+  if (value >= least && value <= most) return value;
   mistake(key, fmt::format("is {}", value), limit);
   return otherwise;
 }

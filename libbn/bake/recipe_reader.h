@@ -1,5 +1,5 @@
-// Typed access to a TOML table that turns every mistake into a line with position, allowed range and
-// remedy, and goes on, so that a user sees all of them at once.
+// Typed access to a TOML table that turns every mistake into a message with position, allowed range
+// and remedy, and goes on.
 
 #pragma once
 
@@ -11,22 +11,10 @@
 #include <string_view>
 #include <vector>
 
+#include "bake/mistakes.h"
 #include "bn/core.h"
 
 namespace bn {
-
-/// Collects what is wrong with one recipe.
-class Mistakes {
- public:
-  explicit Mistakes(std::string file) : file_(std::move(file)) {}
-  void add(int line, std::string what, std::string limit = "", std::string remedy = "");
-  /// Throws one Error: the mistake itself, or all of them, one to a line, in the order of the lines.
-  void throw_if_any() const;
-
- private:
-  std::string file_;
-  std::vector<std::pair<int, ErrorInfo>> found_;
-};
 
 int line_of(const toml::node& node);
 
@@ -50,8 +38,7 @@ class TableReader {
 
   std::string text(std::string_view key, std::string otherwise, std::string_view limit = "a string");
   std::int64_t integer(std::string_view key, std::int64_t otherwise, std::int64_t least, std::int64_t most);
-  /// least..most, both allowed, or above `least` only if `open`.
-  double number(std::string_view key, double otherwise, double least, double most, bool open = false);
+  double number(std::string_view key, double otherwise, double least, double most);
   bool boolean(std::string_view key, bool otherwise);
   /// Index into `words`.
   int choice(std::string_view key, int otherwise, const std::vector<std::string>& words);

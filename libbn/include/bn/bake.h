@@ -114,7 +114,7 @@ std::string recipe_text(const Recipe& recipe);
 enum class JobKind { mask, retarget, contact_sheet };
 std::string_view name_of(JobKind kind);  ///< "mask", "retarget", "contact-sheet"
 
-/// One step of a bake: it makes its files together or not at all.
+/// One step of a bake.
 struct PlannedJob {
   JobKind kind;
   int entry = 0;                   ///< index into Recipe::masks or Recipe::retargets
@@ -155,13 +155,13 @@ struct FileRecord {
 struct JobRecord {
   JobKind kind = JobKind::mask;
   std::string name;
-  bool skipped = false;                      ///< its results stood already
-  double seconds = 0.0;                      ///< wall time of making it; of the earlier bake if skipped
-  std::optional<Offset> step;                ///< of a retarget set, `auto` resolved
-  std::optional<std::int64_t> orbit_length;  ///< of that step
-  std::vector<FileRecord> files;
-  std::vector<TileRecord> tiles;   ///< of a retarget set: every motion, row by row
-  std::vector<std::string> notes;  ///< what a user should know: a constant source, no permutation, ...
+  bool skipped = false;                           ///< its results stood already
+  double seconds = 0.0;                           ///< wall time of making it; of the earlier bake if skipped
+  std::optional<Offset> step = {};                ///< of a retarget set, `auto` resolved
+  std::optional<std::int64_t> orbit_length = {};  ///< of that step
+  std::vector<FileRecord> files = {};
+  std::vector<TileRecord> tiles = {};   ///< of a retarget set: every motion, row by row
+  std::vector<std::string> notes = {};  ///< what a user should know: a constant source, no permutation, ...
 };
 
 struct BakeResult {
