@@ -50,7 +50,7 @@ struct HalfSpectrum {
 /// F(k) = sum over p of v(p) exp(-2 pi i (kx x / W + ky y / H + kz z / D)), in one, two or three
 /// dimensions; T float or double.
 /// Error: root mean square at most 8 rounding units of T (2^-53, 2^-24), relative to that of F; half of that
-/// where no side has a prime factor above 31 (docs/spectrum.md).
+/// where no side has a prime factor above 47 (docs/spectrum.md).
 /// Cost: N log N for every size (Bluestein 1970 where a prime factor is large); memory N + 2 complex
 /// halves.
 template <class T>
@@ -203,5 +203,19 @@ struct CheckFailure {
 /// The figures outside their thresholds (check.cpp states each with its reason); empty: passed.
 /// Figures that this texture is too small to have are not judged.
 std::vector<CheckFailure> check(const FiguresOfMerit& figures, Check kind);
+
+// --- studies -------------------------------------------------------------------------------------
+
+/// One way to transform a side x side picture of white noise, on one thread.
+struct FftStudyRow {
+  std::string method;  ///< "bn" or "OpenImageIO"
+  std::string type;    ///< "float" or "double"
+  int side;
+  double seconds;         ///< processor time, the median of repeated runs
+  double relative_error;  ///< root mean square against a long-double sum over four columns of the spectrum
+};
+
+/// Speed against error of our transforms and of OpenImageIO's (ImageBufAlgo::fft) for each side, 2..8192.
+std::vector<FftStudyRow> study_fft(const std::vector<int>& sides, const Execution& execution = {});
 
 }  // namespace bn
