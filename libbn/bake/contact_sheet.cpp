@@ -52,6 +52,10 @@ Colour grey(double share) {
   return {value, value, value};
 }
 
+std::string energy_text(std::int64_t energy, double pixels) {
+  return fmt::format("E {}, mean {:.2f}", energy, static_cast<double>(energy) / pixels);
+}
+
 template <class Map>
 Grid<Colour> coloured(Extent size, Map map) {
   Grid<Colour> result(size);
@@ -95,17 +99,13 @@ class Sheet {
 
     panel(0, 0, "source D", fmt::format("{} levels", view.levels.distinct),
           coloured(size, [&](int x, int y) { return grey((levels(x, y) - *low) / span); }));
-    panel(1, 0, "without retarget: |D(u) - D(u+d)|",
-          fmt::format("E {}, {:.2f} a pixel", plain.start_energy,
-                      static_cast<double>(plain.start_energy) / pixels),
+    panel(1, 0, "|D(u)-D(u+d)|", energy_text(plain.start_energy, pixels),
           residual(levels, Grid<Offset>(size), step, 1.0 / span));
     if (view.tile) {
-      panel(2, 0, "after: |D(u) - D(u+R+d)|",
-            fmt::format("E {}, {:.2f} a pixel, x{}", plain.energy, static_cast<double>(plain.energy) / pixels,
-                        kResidualGain),
+      panel(2, 0, fmt::format("|D(u)-D(u+R+d)| x{}", kResidualGain), energy_text(plain.energy, pixels),
             residual(levels, *view.tile, step, kResidualGain / span));
-      const double longest = longest_move(entry, 0);
-      panel(0, 1, "retarget R, hue = direction", fmt::format("lower bound {}", plain.lower_bound),
+      const double longest = entry.options.radius;
+      panel(0, 1, "R, hue = direction", fmt::format("lower bound {}", plain.lower_bound),
             coloured(size, [&](int x, int y) { return move_colour((*view.tile)(x, y), longest); }));
       hue_key(kMargin + kPanel - 32, row_top(1) + kPanel + 16);
       arrows(*view.tile, longest);
@@ -145,11 +145,12 @@ class Sheet {
 
   void header(const std::string& name, const std::string& figures) {
     canvas_.text(kMargin, top_, name, 4, kTitle);
-    canvas_.text(kMargin, top_ + 48, figures, 2, kFaint);
+    canvas_.text(kMargin, top_ + 50, figures, 2, kFaint);
   }
 
   void rule() {
-    canvas_.fill(kMargin, top_, {kWidth - 2 * kMargin, 1}, kRule);
+    if (top_ + kBetween < canvas_.size().height)
+      canvas_.fill(kMargin, top_, {kWidth - 2 * kMargin, 1}, kRule);
     top_ += kBetween;
   }
 
@@ -161,7 +162,7 @@ class Sheet {
 
   void caption(int left, int top, const std::string& label, const std::string& figures, int width = kPanel) {
     fitted_text(left, top + 10, label, width, kText);
-    fitted_text(left, top + 32, figures, width, kFaint);
+    fitted_text(left, top + 33, figures, width, kFaint);
   }
 
   void panel(int column, int row, const std::string& label, const std::string& figures,
@@ -184,8 +185,6 @@ class Sheet {
     });
   }
 
-  static double longest_move(const RetargetEntry& entry, int motion) { return entry.options.radius + motion; }
-
   /// A disc of all directions, to read the hues by.
   void hue_key(int left, int top) {
     constexpr int kRadius = 15;
@@ -206,12 +205,12 @@ class Sheet {
       for (int x = 0; x < cells; ++x) {
         const Offset r = tile(x, y);
         const double cx = left + inset + (x + 0.5) * cell, cy = top + inset + (y + 0.5) * cell;
-        const double reach = 0.55 * cell / longest;
+        const double reach = 0.45 * cell / longest;
         canvas_.arrow(cx - r.x * reach, cy - r.y * reach, cx + r.x * reach, cy + r.y * reach,
                       move_colour(r, longest));
       }
     }
-    caption(left, top + kPanel, "R as arrows", fmt::format("{} x {} pixels, upper left", cells, cells));
+    caption(left, top + kPanel, "R as arrows", fmt::format("{} x {}, upper left", cells, cells));
   }
 
   void heat_map(const SetView& view) {
@@ -234,15 +233,15 @@ class Sheet {
       canvas_.text(x + (cell - 1 - text_width(label)) / 2, y + (cell - 7) / 2, label, 1,
                    share > 0.6 ? kBackground : kTitle);
     }
-    caption(left, top + kPanel, "E of each motion, % of start",
-            fmt::format("E {}..{}", low->energy, high->energy));
+    caption(left, top + kPanel, "% of start, by motion", fmt::format("E {}..{}", low->energy, high->energy));
   }
 
   void atlas(const Grid<Offset>& moves, const RetargetEntry& entry) {
     const int left = column_left(3), top = row_top(0);
     const int longest_side = std::max(moves.width(), moves.height());
     const int every = (longest_side + kAtlas - 1) / kAtlas, scale = std::max(1, kAtlas / longest_side);
-    const double longest = longest_move(entry, entry.motion);
+    // Scaled so that the motions, not the moves about them, span the colours.
+    const double longest = entry.motion + 0.5 * entry.options.radius;
     const auto picture =
         coloured(moves.size(), [&](int x, int y) { return move_colour(moves(x, y), longest); });
     canvas_.fill(left, top, {kAtlas, kAtlas}, kEmpty);

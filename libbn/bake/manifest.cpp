@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -11,11 +12,23 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// JSON on one line, with spaces.
+std::string on_one_line(const Json& value) {
+  if (!value.is_structured()) return value.dump();
+  std::string text(1, value.is_object() ? '{' : '[');
+  for (auto item = value.begin(); item != value.end(); ++item) {
+    if (item != value.begin()) text += ", ";
+    if (value.is_object()) text += Json(item.key()).dump() + ": ";
+    text += on_one_line(*item);
+  }
+  return text + (value.is_object() ? '}' : ']');
+}
+
 /// JSON indented by two, with what fits on a line on one line.
 void print(const Json& value, int indent, std::string& text) {
-  constexpr std::size_t kWidth = 100;
-  const std::string line = value.dump();
-  if (!value.is_structured() || value.empty() || (indent > 0 && indent * 2 + line.size() <= kWidth)) {
+  constexpr std::size_t kWidth = 130;
+  const std::string line = on_one_line(value);
+  if (!value.is_structured() || value.empty() || (indent > 1 && indent * 2 + line.size() <= kWidth)) {
     text += line;
     return;
   }
@@ -31,6 +44,8 @@ void print(const Json& value, int indent, std::string& text) {
   text.append(static_cast<std::size_t>(indent) * 2, ' ');
   text += value.is_object() ? '}' : ']';
 }
+
+double milliseconds(double seconds) { return std::round(seconds * 1000.0) / 1000.0; }
 
 Json json_of(const TileRecord& tile) {
   return {{"motion", {tile.motion.x, tile.motion.y}},
@@ -112,10 +127,10 @@ std::string manifest_text(const Manifest& manifest) {
   double total = 0.0;
   for (const JobRecord& job : manifest.jobs) {
     json["jobs"].push_back(json_of(job));
-    json["times"]["jobs"][job.name] = job.seconds;
+    json["times"]["jobs"][job.name] = milliseconds(job.seconds);
     total += job.seconds;
   }
-  json["times"]["all_jobs"] = total;
+  json["times"]["all_jobs"] = milliseconds(total);
   std::string text;
   print(json, 0, text);
   return text + "\n";

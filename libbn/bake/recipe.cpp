@@ -192,8 +192,7 @@ class RecipeParser {
       table.mistake("size", "is missing", "[width, height], each 1..16384");
     }
     mask.options.sigma_px = table.number("sigma", mask.options.sigma_px, 0.3, 16.0);
-    mask.options.initial_density =
-        table.number("initial_density", mask.options.initial_density, 0.0, 0.5);
+    mask.options.initial_density = table.number("initial_density", mask.options.initial_density, 0.0, 0.5);
     mask.options.seed = static_cast<std::uint64_t>(table.integer(
         "seed", static_cast<std::int64_t>(mask.options.seed), 0, std::numeric_limits<std::int64_t>::max()));
     mask.options.cutoff_px = static_cast<int>(table.integer("cutoff", mask.options.cutoff_px, 0, 64));

@@ -45,8 +45,8 @@ struct MaskOutput {
 /// `[[mask]]`: a blue-noise mask and its files. The only method so far is void-and-cluster.
 struct MaskEntry {
   std::string name;
-  VoidAndClusterOptions options;
-  std::vector<MaskOutput> outputs;
+  VoidAndClusterOptions options = {};
+  std::vector<MaskOutput> outputs = {};
   int line = 0;
 };
 
@@ -65,7 +65,7 @@ struct RetargetOutput {
   std::string path;
   Kind kind = Kind::tile;
   MoveForm form = MoveForm::scatter;
-  Offset motion;  ///< of a tile; (0, 0) is the plain retarget tile
+  Offset motion = {};  ///< of a tile; (0, 0) is the plain retarget tile
   int line = 0;
 };
 
@@ -80,10 +80,10 @@ struct RetargetEntry {
   /// For a mask: the sample type whose levels the tiles are optimised for, which is what the
   /// renderer reads; the mask must have an output of it. An image has its own type.
   SampleType levels = SampleType::u8;
-  std::optional<Offset> step;  ///< none: auto_step() of the source's size
-  RetargetOptions options;     ///< step and motion are ignored
-  int motion = 0;              ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
-  std::vector<RetargetOutput> outputs;
+  std::optional<Offset> step = {};  ///< none: auto_step() of the source's size
+  RetargetOptions options = {};     ///< step and motion are ignored
+  int motion = 0;                   ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
+  std::vector<RetargetOutput> outputs = {};
   int line = 0;
 };
 
@@ -117,12 +117,12 @@ std::string_view name_of(JobKind kind);  ///< "mask", "retarget", "contact-sheet
 /// One step of a bake.
 struct PlannedJob {
   JobKind kind;
-  int entry = 0;                   ///< index into Recipe::masks or Recipe::retargets
-  std::string name;                ///< the entry's name
-  std::vector<std::string> files;  ///< relative to the output folder, in the order they are written
-  double estimated_seconds = 0.0;  ///< on one core of 2024; a guide for progress, not a promise
-  std::uint64_t memory_bytes = 0;  ///< estimated peak
-  bool stands = false;             ///< results of an earlier bake stand, so the job would be skipped
+  int entry = 0;                        ///< index into Recipe::masks or Recipe::retargets
+  std::string name;                     ///< the entry's name
+  std::vector<std::string> files = {};  ///< relative to the output folder, in the order they are written
+  double estimated_seconds = 0.0;       ///< on one core; a guide for progress, not a promise
+  std::uint64_t memory_bytes = 0;       ///< estimated peak
+  bool stands = false;                  ///< results of an earlier bake stand, so the job would be skipped
 };
 
 struct BakePlan {
@@ -148,7 +148,7 @@ struct FileRecord {
   std::string path;  ///< relative to the output folder
   std::string kind;  ///< "mask", "retarget-tile", "retarget-atlas", "contact-sheet"
   std::string pixel_hash;
-  std::vector<TileRecord> tiles;  ///< energies and bounds; empty for masks
+  std::vector<TileRecord> tiles = {};  ///< energies and bounds; empty for masks
 };
 
 /// What became of a job.

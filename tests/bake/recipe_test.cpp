@@ -1,0 +1,218 @@
+// Protects: a recipe is read as written, and every mistake in one is named with file, line, allowed
+// range and remedy, all mistakes at once; no text crashes the parser.
+#include "fixtures.h"
+
+namespace bn {
+namespace {
+
+TEST(Recipe, IsReadAsWritten) {
+  const Recipe recipe = small_recipe();
+  ASSERT_EQ(recipe.masks.size(), 2u);
+  ASSERT_EQ(recipe.retargets.size(), 2u);
+  const MaskEntry& small = recipe.masks[0];
+  EXPECT_EQ(small.options.size, (Extent{16, 16}));
+  EXPECT_EQ(small.options.sigma_px, 1.9);
+  EXPECT_EQ(small.outputs.size(), 6u);
+  EXPECT_EQ(small.outputs[1].type, SampleType::f32) << "the only type that EXR holds";
+  EXPECT_EQ(small.outputs[2].type, SampleType::u16);
+  EXPECT_EQ(recipe.masks[1].options.seed, 7u);
+  const RetargetEntry& set = recipe.retargets[0];
+  EXPECT_FALSE(set.step.has_value());
+  EXPECT_EQ(set.motion, 1);
+  EXPECT_EQ(set.outputs[0].kind, RetargetOutput::Kind::tile);
+  EXPECT_EQ(set.outputs[1].kind, RetargetOutput::Kind::atlas) << "what a set of motions makes by default";
+  EXPECT_EQ(set.outputs[2].form, MoveForm::gather);
+  EXPECT_EQ(set.outputs[3].motion, (Offset{1, 0}));
+  const RetargetEntry& euclidean = recipe.retargets[1];
+  EXPECT_EQ(*euclidean.step, (Offset{4, 3}));
+  EXPECT_EQ(euclidean.options.reach, Reach::euclidean);
+  EXPECT_EQ(euclidean.options.metric, Metric::l2);
+  EXPECT_EQ(euclidean.outputs[0].kind, RetargetOutput::Kind::tile) << "what a single motion makes by default";
+}
+
+TEST(Recipe, WrittenOutReadsBackTheSame) {
+  const std::string text = recipe_text(small_recipe());
+  EXPECT_EQ(recipe_text(parse_recipe(text, "again", "")), text);
+}
+
+TEST(Recipe, GapIsAShareOrPercent) {
+  const auto gap = [](const std::string& value) {
+    return parse_recipe(
+               "version = 1\n[[retarget]]\nname = 'a'\nimage = 'x.png'\noutputs = ['a.png']\ngap = " + value,
+               "r", "")
+        .retargets[0]
+        .options.gap;
+  };
+  EXPECT_EQ(gap("0.005"), 0.005);
+  EXPECT_EQ(gap("\"0.5%\""), 0.005);
+  EXPECT_EQ(gap("0"), 0.0);
+}
+
+// --- mistakes ------------------------------------------------------------------------------------
+
+// A sound recipe of numbered lines; each case replaces one line.
+const std::vector<std::string> kSound = {
+    /* 1 */ "version = 1",
+    /* 2 */ "[[mask]]",
+    /* 3 */ "name = 'm'",
+    /* 4 */ "size = [16, 16]",
+    /* 5 */ "outputs = ['m.png']",
+    /* 6 */ "[[retarget]]",
+    /* 7 */ "name = 'r'",
+    /* 8 */ "mask = 'm'",
+    /* 9 */ "motion = 1",
+    /* 10 */ "outputs = ['r.png']",
+};
+
+struct Mistake {
+  int line;  ///< replaced, and where the message must point unless `points` says otherwise
+  const char* text;
+  std::vector<const char*> says;  ///< parts of the message
+  int points = 0;
+};
+
+class RecipeMistake : public testing::TestWithParam<Mistake> {};
+
+TEST_P(RecipeMistake, IsNamedWithLineAndRange) {
+  const Mistake& mistake = GetParam();
+  std::string text;
+  for (std::size_t i = 0; i < kSound.size(); ++i) {
+    text += (static_cast<int>(i) + 1 == mistake.line ? mistake.text : kSound[i]) + "\n";
+  }
+  try {
+    parse_recipe(text, "a.toml", "");
+    FAIL() << "accepted: " << mistake.text;
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::invalid_input);
+    const std::string what = error.what();
+    const int line = mistake.points ? mistake.points : mistake.line;
+    EXPECT_NE(what.find("a.toml:" + std::to_string(line) + ": "), std::string::npos) << what;
+    for (const char* part : mistake.says)
+      EXPECT_NE(what.find(part), std::string::npos) << part << " in: " << what;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, RecipeMistake,
+    testing::Values(
+        Mistake{1, "version = 2", {"version is 2", "allowed: 1..1"}},
+        Mistake{1, "# none", {"version is missing", "begin with version = 1"}},
+        Mistake{1, "version = 1\nversion = 1", {"allowed: TOML 1.0"}, 2}, Mistake{1, "version = ", {"TOML"}},
+        Mistake{1,
+                "version = 1\ncolour = 3",
+                {"unknown key 'colour'", "contact_sheet, mask, retarget, version"},
+                2},
+        Mistake{1, "version = 1\ncontact_sheet = 'a.jpg'", {"contact_sheet is 'a.jpg'", ".png"}, 2},
+        Mistake{1, "version = 1\ncontact_sheet = 'm.png'", {"written already, by line 2"}, 6},
+        Mistake{2, "[mask]", {"mask is a table", "[[mask]]"}, 2},
+        Mistake{3, "", {"name is missing", "1..64"}, 2},
+        Mistake{3, "name = 'a b'", {"name is not acceptable", "letters"}},
+        Mistake{3, "name = 5", {"name is an integer", "a string"}},
+        Mistake{3, "name = 'contact_sheet'", {"taken by the bake"}},
+        Mistake{4, "", {"mask 'm': size is missing", "each 1..16384"}, 2},
+        Mistake{4, "size = [0, 16]", {"size is [0, 16]", "each 1..16384"}},
+        Mistake{4, "size = [16, 16385]", {"size is [16, 16385]", "each 1..16384"}},
+        Mistake{4, "size = 16", {"size is no pair of integers", "[x, y]"}},
+        Mistake{4, "size = [16, 16.0]", {"size is no pair of integers"}},
+        Mistake{4, "size = [16, 16]\nsigma = 0.2", {"sigma is 0.2", "0.3..16"}, 5},
+        Mistake{4, "size = [16, 16]\nsigma = nan", {"sigma is nan", "0.3..16"}, 5},
+        Mistake{4, "size = [16, 16]\nsigma = inf", {"sigma is inf", "0.3..16"}, 5},
+        Mistake{4, "size = [16, 16]\nsigma = 'big'", {"sigma is a string", "a number 0.3..16"}, 5},
+        Mistake{4, "size = [16, 16]\nsigam = 1.5", {"unknown key 'sigam'", "did you mean 'sigma'?"}, 5},
+        Mistake{4, "size = [16, 16]\ninitial_density = 0.6", {"initial_density is 0.6", "0..0.5"}, 5},
+        Mistake{4, "size = [16, 16]\nseed = -1", {"seed is -1", "0..9223372036854775807"}, 5},
+        Mistake{4, "size = [16, 16]\ncutoff = 65", {"cutoff is 65", "0..64"}, 5},
+        Mistake{4, "size = [16, 16]\nmethod = 'void-and-clutser'", {"did you mean \"void-and-cluster\"?"}, 5},
+        Mistake{5, "", {"outputs is missing"}, 2},
+        Mistake{5, "outputs = []", {"outputs has 0 elements", "1..64"}},
+        Mistake{5, "outputs = 'm.png'", {"outputs is a string", "an array of paths"}},
+        Mistake{5, "outputs = ['/m.png']", {"path is absolute", "inside the output folder"}},
+        Mistake{5, "outputs = ['a/../../m.png']", {"path leaves the output folder"}},
+        Mistake{5, "outputs = ['manifest.json']", {"taken by the bake"}},
+        Mistake{5, "outputs = ['m.png', './m.png']", {"written already, by line 5"}},
+        Mistake{5, "outputs = ['folder/']", {"path names no file"}},
+        Mistake{5, "outputs = ['']", {"path is empty"}},
+        Mistake{5, "outputs = [\"a\\u0007.png\"]", {"path has control characters"}},
+        Mistake{5, "outputs = [7]", {"an output is no path"}},
+        Mistake{5, "outputs = [{ type = '8bit' }]", {"path is missing"}},
+        Mistake{5,
+                "outputs = [{ path = 'm.png', type = '8' }]",
+                {"type is '8'", "\"8bit\", \"16bit\", \"float\""}},
+        Mistake{
+            5, "outputs = [{ path = 'm.png', typ = '8bit' }]", {"unknown key 'typ'", "did you mean 'type'?"}},
+        Mistake{5,
+                "outputs = [{ path = 'm.png', type = '16bit' }]",
+                {"has no 8bit output", "type = \"8bit\""},
+                6},
+        Mistake{7, "name = 'm'", {"name is used already, in line 3"}},
+        Mistake{8, "", {"mask is missing", "either mask = \"name\" or image"}, 6},
+        Mistake{8, "mask = 'm'\nimage = 'x.png'", {"image stands beside a mask"}, 9},
+        Mistake{8, "mask = 'n'", {"there is no mask 'n'", "allowed: m", "did you mean 'm'?"}, 6},
+        Mistake{8, "mask = 'm'\nchannel = 1", {"channel needs an image"}, 9},
+        Mistake{8, "image = 'x.png'\nchannel = 64", {"channel is 64", "0..63"}, 9},
+        Mistake{8, "image = 'x.png'\nlevels = '8bit'", {"levels needs a mask"}, 9},
+        Mistake{8, "mask = 'm'\nstep = 'autos'", {"step is 'autos'", "\"auto\", or [x, y]"}, 9},
+        Mistake{8, "mask = 'm'\nstep = [1, 2, 3]", {"step is no pair"}, 9},
+        Mistake{8, "mask = 'm'\nradius = 0", {"radius is 0", "1..32"}, 9},
+        Mistake{8, "mask = 'm'\nradius = 33", {"radius is 33", "1..32"}, 9},
+        Mistake{8, "mask = 'm'\nradius = 6.0", {"radius is a float", "an integer 1..32"}, 9},
+        Mistake{8, "mask = 'm'\nreach = 'euklidean'", {"did you mean \"euclidean\"?"}, 9},
+        Mistake{8, "mask = 'm'\nmetric = 'l3'", {"metric is 'l3'", "\"l1\", \"l2\""}, 9},
+        Mistake{8, "mask = 'm'\nwrap = 1", {"wrap is an integer", "true or false"}, 9},
+        Mistake{8, "mask = 'm'\ngap = -0.1", {"gap is -0.1", "0..1"}, 9},
+        Mistake{8, "mask = 'm'\ngap = '5'", {"gap is no share", "\"0%\"..\"100%\""}, 9},
+        Mistake{9, "motion = 9", {"motion is 9", "0..8"}},
+        Mistake{9, "motion = 8", {"motion 8 is larger than the tile of 16x16", "0..7"}, 6},
+        Mistake{10,
+                "outputs = [{ path = 'r.png', kind = 'tile', motion = [2, 0] }]",
+                {"motion is [2, 0]", "each -1..1"}},
+        Mistake{10, "outputs = [{ path = 'r.png', motion = [1, 0] }]", {"motion needs a tile"}},
+        Mistake{10, "outputs = [{ path = 'r.png', form = 'gathr' }]", {"did you mean \"gather\"?"}}));
+
+TEST(RecipeMistakes, AreAllNamedInTheOrderOfTheLines) {
+  try {
+    parse_recipe("version = 1\n[[mask]]\nname = 'm'\nsize = [0, 1]\nsigma = 99\noutputs = ['../m.png']\n",
+                 "a.toml", "");
+    FAIL();
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    EXPECT_NE(what.find("3 mistakes"), std::string::npos) << what;
+    const auto size = what.find("a.toml:4: "), sigma = what.find("a.toml:5: "),
+               path = what.find("a.toml:6: ");
+    EXPECT_LT(size, sigma);
+    EXPECT_LT(sigma, path);
+    EXPECT_NE(path, std::string::npos) << what;
+  }
+}
+
+TEST(RecipeMistakes, HostileRecipesAreRefused) {
+  EXPECT_THROW(parse_recipe("", "a", ""), Error);
+  EXPECT_THROW(parse_recipe(std::string("version = 1\0", 12), "a", ""), Error);
+  EXPECT_THROW(parse_recipe("\xff\xfe", "a", ""), Error);
+  EXPECT_THROW(parse_recipe("a = " + std::string(100000, '['), "a", ""), Error);
+  std::string many = "version = 1\n";
+  for (int i = 0; i <= kMaxRecipeEntries; ++i) many += "[[mask]]\n";
+  EXPECT_THROW(parse_recipe(many, "a", ""), Error);
+  try {
+    parse_recipe(std::string(kMaxRecipeBytes + 1, '#'), "a", "");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::over_limit);
+  }
+}
+
+TEST(RecipeMistakes, AFileThatIsNoneIsAnIoError) {
+  const TemporaryFolder folder;
+  for (const fs::path& path : {folder / "none.toml", fs::path(folder)}) {
+    try {
+      read_recipe(path);
+      FAIL() << path;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::io);
+      EXPECT_NE(std::string(error.what()).find(path.string()), std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bn
