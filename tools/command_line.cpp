@@ -23,6 +23,9 @@ namespace {
                .remedy = std::move(remedy)});
 }
 
+/// More words than a command line holds.
+constexpr int kManyWords = 1 << 28;
+
 /// An argument and the texts given for it.
 struct Given {
   const Argument* argument;
@@ -42,8 +45,8 @@ void add_arguments(CLI::App& app, const std::vector<Argument>& list, std::deque<
       // One value each time, or none: how many, and how often, is checked in assign().
       app.add_option(names, entry.texts)
           ->type_size(1)
-          ->expected(argument.is_positional() ? 1 : 0, 1)
-          ->allow_extra_args(false)
+          ->expected(argument.is_positional() ? 1 : 0, argument.repeats ? kManyWords : 1)
+          ->allow_extra_args(argument.repeats)
           ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     }
   }
@@ -81,6 +84,8 @@ void assign(const Given& given, const std::string& verb) {
   const Argument& argument = *given.argument;
   if (argument.is_switch()) {
     if (given.switched > 0) argument.assign("");
+  } else if (argument.repeats && !given.texts.empty()) {
+    for (const auto& text : given.texts) argument.assign(text);
   } else if (given.texts.size() > 1) {
     fail(fmt::format("given {} times, as '{}'", given.texts.size(), fmt::join(given.texts, "' and '")),
          argument.name, "give it once");

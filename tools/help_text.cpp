@@ -64,6 +64,7 @@ std::string arguments_text(std::string_view title, const Arguments& arguments, b
     if (argument.is_positional() != positional) continue;
     std::string left = argument.short_name.empty() ? "" : argument.short_name + ", ";
     left += argument.name;
+    if (argument.repeats) left += "...";
     if (!positional && !argument.is_switch()) left += " " + argument.placeholder;
     std::string right = argument.help;
     if (!argument.allowed.empty()) right += fmt::format(" Allowed: {}.", argument.allowed);
@@ -79,7 +80,7 @@ std::string usage_line(const Verb& verb) {
     if (!argument.required) continue;
     const std::string& flag = argument.short_name.empty() ? argument.name : argument.short_name;
     text +=
-        argument.is_positional() ? " " + argument.name : fmt::format(" {} {}", flag, argument.placeholder);
+        argument.is_positional() ? " " + argument.name + (argument.repeats ? "..." : "") : fmt::format(" {} {}", flag, argument.placeholder);
   }
   return text + " [OPTIONS]";
 }

@@ -23,6 +23,7 @@ struct Argument {
   std::string allowed;      ///< the range, as the help shows it
   std::string initial;      ///< the value that holds where none is given, as the help shows it
   bool required = false;
+  bool repeats = false;     ///< a positional one that takes all the words that are left
   Completion completion = Completion::none;
   std::vector<std::string> choices = {};
   std::function<void(std::string_view text)> assign = {};
@@ -39,6 +40,23 @@ class Arguments {
   void positional(std::string name, T& target, const ValueKind<T>& kind, std::string help) {
     add(std::move(name), "", target, kind, std::move(help)).required = true;
     list_.back().placeholder = list_.back().name;
+  }
+  /// One or more arguments without a name; the last positional ones.
+  template <class T>
+  void positional_list(std::string name, std::vector<T>& target, const ValueKind<T>& kind, std::string help) {
+    list_.push_back({.name = name,
+                     .short_name = "",
+                     .placeholder = name,
+                     .help = std::move(help),
+                     .allowed = kind.allowed,
+                     .initial = "",
+                     .required = true,
+                     .repeats = true,
+                     .completion = kind.completion,
+                     .choices = kind.choices,
+                     .assign = [&target, parse = kind.parse, name](std::string_view text) {
+                       target.push_back(parse(text, name));
+                     }});
   }
   /// "--name VALUE". What `target` holds already is the default that the help shows.
   template <class T>

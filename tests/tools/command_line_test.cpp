@@ -75,6 +75,20 @@ TEST(CommandLine, AssignsWhatIsGivenAndKeepsTheRest) {
   EXPECT_EQ(f.size, (Extent{64, 64}));
 }
 
+TEST(CommandLine, AListTakesAllTheWordsThatAreLeft) {
+  Fixture f;
+  std::vector<std::filesystem::path> files;
+  Verb look{.name = "look", .summary = "Look.", .examples = {{"bn look a b", "two"}}, .details = "It looks."};
+  look.arguments.positional_list("FILE", files, file_path(), "The files.");
+  look.arguments.option("--radius", f.radius, integer_in(1, 32), "How far.");
+  f.verbs.push_back(look);
+  f.parse({"look", "a.png", "b.png", "--radius", "5", "c.png", "--threads", "2"});
+  EXPECT_EQ(files, (std::vector<std::filesystem::path>{"a.png", "b.png", "c.png"}));
+  EXPECT_EQ(f.radius, 5);
+  EXPECT_NE(f.refusal({"look"}).find("FILE is missing"), std::string::npos);
+  EXPECT_NE(verb_help(look, f.global_arguments).find("bn look FILE... [OPTIONS]"), std::string::npos);
+}
+
 TEST(CommandLine, FindsMethodsOfAGroup) {
   Fixture f;
   EXPECT_EQ(f.parse({"noise", "make", "--size", "3x4", "-o", "x.png", "--threads", "2"}).verb->name,
