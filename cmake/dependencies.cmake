@@ -8,6 +8,7 @@ find_package(nlohmann_json REQUIRED)
 find_package(tomlplusplus REQUIRED)
 find_package(Eigen3 3.4 REQUIRED)
 find_package(Threads REQUIRED)
+find_package(Vulkan REQUIRED COMPONENTS glslc)
 # The CMake configuration of Debian's OpenImageIO 2.4 names files that are not packaged.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy>=1.0.3)

@@ -16,6 +16,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "bn/core.h"
@@ -106,6 +107,12 @@ inline constexpr std::int16_t kNoMotion = -32768;
 /// The mean motion over the known pixels, rounded half up to whole pixels, clamped to -range..range
 /// on each axis; (0, 0) where no pixel knows. Exact: sums are integers.
 Offset choose_motion(const Grid<PixelMotion>& motion, int range);
+
+/// What one pass of one frame took.
+struct PassTime {
+  std::string pass;
+  double milliseconds = 0.0;
+};
 
 // --- the flat model ----------------------------------------------------------------------------
 

@@ -1,0 +1,91 @@
+// Compute passes on a device: a pipeline each, time stamps between them, and the passes of the
+// temporal algorithm with the buffers they share.
+#pragma once
+
+#include <array>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "bn/runtime.h"
+#include "runtime/vulkan_device.h"
+
+namespace bn {
+
+/// One shader as a pipeline. Buffers are bound by position: 0, 1, ...
+class Pass {
+ public:
+  Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int buffers, std::uint32_t push_bytes,
+       std::uint32_t group_size);
+
+  /// Records a dispatch of at least `invocations`, and a barrier after it, so that passes see each
+  /// other's results in the order they are recorded.
+  template <class Push>
+  void record(const vk::raii::CommandBuffer& commands, std::initializer_list<const DeviceBuffer*> buffers,
+              const Push& push, std::int64_t invocations) const {
+    record_bytes(commands, buffers, std::as_bytes(std::span(&push, 1)), invocations);
+  }
+
+ private:
+  void record_bytes(const vk::raii::CommandBuffer& commands, std::initializer_list<const DeviceBuffer*> buffers,
+                    std::span<const std::byte> push, std::int64_t invocations) const;
+
+  vk::raii::DescriptorSetLayout set_layout_{nullptr};
+  vk::raii::PipelineLayout layout_{nullptr};
+  vk::raii::Pipeline pipeline_{nullptr};
+  std::uint32_t group_size_;
+};
+
+/// Makes what transfers wrote visible to passes, and what passes wrote visible to transfers.
+void record_barrier(const vk::raii::CommandBuffer& commands);
+
+/// Time stamps around the passes of one submission.
+class PassTimer {
+ public:
+  explicit PassTimer(const VulkanDevice& device);
+  /// Before the first pass.
+  void start(const vk::raii::CommandBuffer& commands);
+  /// After each pass: the time since the last mark is `pass`'s.
+  void mark(const vk::raii::CommandBuffer& commands, std::string pass);
+  /// Milliseconds of each pass, in order; after the commands have run.
+  std::vector<PassTime> read() const;
+
+ private:
+  static constexpr std::uint32_t kStamps = 32;
+  double unit_ms_;
+  vk::raii::QueryPool pool_{nullptr};
+  std::vector<std::string> passes_;
+};
+
+/// Sort, retarget and motion choice on the device, equal bit for bit to the functions of
+/// bn/runtime.h.
+class VulkanTemporal {
+ public:
+  /// The textures must have passed check(). `block` is the sort block's side.
+  VulkanTemporal(VulkanDevice& device, const TemporalTextures& textures, Extent screen, const Seeds& seeds,
+                 int block);
+
+  void record_motion_choice(const vk::raii::CommandBuffer& commands) const;
+  /// With the tile for the chosen motion; (0, 0) until a choice is recorded.
+  void record_retarget(const vk::raii::CommandBuffer& commands, Offset shift);
+  void record_sort(const vk::raii::CommandBuffer& commands, Offset shift, Offset origin) const;
+
+  const DeviceBuffer& luminance() const { return luminance_; }
+  const DeviceBuffer& motion() const { return motion_; }
+  const DeviceBuffer& seeds() const { return seeds_[current_]; }
+  Extent padded() const { return padded_; }
+  Seeds download_seeds();
+  Offset download_chosen_motion();
+
+ private:
+  VulkanDevice& device_;
+  Extent screen_, padded_, tile_;
+  int block_;
+  int motion_range_;
+  Pass sort_, retarget_, motion_sum_, motion_choose_;
+  DeviceBuffer mask_, moves_, luminance_, motion_, sums_, chosen_;
+  std::array<DeviceBuffer, 2> seeds_;
+  std::size_t current_ = 0;
+};
+
+}  // namespace bn

@@ -1,0 +1,16 @@
+// bn_dither.glsl - which texel of a tile a pixel reads. Paste into your engine.
+//
+// Frame t dithers pixel p with mask texel p + t * d, wrapped: shift = (t * d) mod tile, made once a
+// frame on the host, each component in 0..tile-1. d is the step written into the mask's file; use it
+// as it is: an integer vector, never a real one truncated each frame.
+
+#ifndef BN_DITHER_GLSL
+#define BN_DITHER_GLSL
+
+// The texel for `pixel` (not negative).
+ivec2 bn_texel(ivec2 pixel, ivec2 shift, ivec2 tile) { return (pixel + shift) % tile; }
+
+// A mask sample of 8 bits as a number in the middle of its level, for dithering: never 0, never 1.
+float bn_level(uint sample8) { return (float(sample8) + 0.5) / 256.0; }
+
+#endif
