@@ -33,13 +33,20 @@ constexpr std::uint32_t kMotionChoose[] =
 
 std::span<const std::uint32_t> shader_code(ShaderCode code) {
   switch (code) {
-    case ShaderCode::sort_2: return kSort2;
-    case ShaderCode::sort_4: return kSort4;
-    case ShaderCode::sort_8: return kSort8;
-    case ShaderCode::sort_16: return kSort16;
-    case ShaderCode::retarget: return kRetarget;
-    case ShaderCode::motion_sum: return kMotionSum;
-    case ShaderCode::motion_choose: return kMotionChoose;
+    case ShaderCode::sort_2:
+      return kSort2;
+    case ShaderCode::sort_4:
+      return kSort4;
+    case ShaderCode::sort_8:
+      return kSort8;
+    case ShaderCode::sort_16:
+      return kSort16;
+    case ShaderCode::retarget:
+      return kRetarget;
+    case ShaderCode::motion_sum:
+      return kMotionSum;
+    case ShaderCode::motion_choose:
+      return kMotionChoose;
   }
   throw std::logic_error("no such shader");
 }

@@ -20,7 +20,8 @@ namespace {
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
 constexpr std::uint32_t kVulkanVersion = VK_API_VERSION_1_2;
 
-VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL collect(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                       VkDebugUtilsMessageTypeFlagsEXT,
                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* complaints) {
   static_cast<std::vector<std::string>*>(complaints)->emplace_back(data->pMessage);
   return VK_FALSE;
@@ -80,7 +81,8 @@ VulkanDevice::VulkanDevice(const std::string& wanted, bool validate)
     const std::array layers{kValidationLayer};
     const std::array extensions{VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     vk::InstanceCreateInfo info({}, &application);
-    if (validate) info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions).setPNext(&features);
+    if (validate)
+      info.setPEnabledLayerNames(layers).setPEnabledExtensionNames(extensions).setPNext(&features);
     instance_ = vk::raii::Instance(*context_, info);
     if (validate) {
       using Severity = vk::DebugUtilsMessageSeverityFlagBitsEXT;
@@ -96,13 +98,13 @@ VulkanDevice::VulkanDevice(const std::string& wanted, bool validate)
     const std::array device_extensions{VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME};
     vk::PhysicalDeviceFeatures wanted_features;
     wanted_features.shaderInt64 = true;
-    device_ = vk::raii::Device(
-        physical_, vk::DeviceCreateInfo({}, queue, nullptr, device_extensions, &wanted_features));
+    device_ = vk::raii::Device(physical_,
+                               vk::DeviceCreateInfo({}, queue, nullptr, device_extensions, &wanted_features));
     queue_ = device_.getQueue(queue_family_, 0);
-    pool_ = vk::raii::CommandPool(
-        device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family_});
-    commands_ = std::move(
-        vk::raii::CommandBuffers(device_, {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
+    pool_ =
+        vk::raii::CommandPool(device_, {vk::CommandPoolCreateFlagBits::eResetCommandBuffer, queue_family_});
+    commands_ =
+        std::move(vk::raii::CommandBuffers(device_, {*pool_, vk::CommandBufferLevel::ePrimary, 1}).front());
     fence_ = vk::raii::Fence(device_, vk::FenceCreateInfo());
   } catch (const vk::LayerNotPresentError&) {
     throw Error({.code = ErrorCode::io,
@@ -132,7 +134,8 @@ void VulkanDevice::choose(const std::string& wanted) {
     if (!lacking.empty()) continue;
     const auto families = device.getQueueFamilyProperties();
     for (std::uint32_t i = 0; i < families.size(); ++i) {
-      if (!(families[i].queueFlags & vk::QueueFlagBits::eCompute) || families[i].timestampValidBits == 0) continue;
+      if (!(families[i].queueFlags & vk::QueueFlagBits::eCompute) || families[i].timestampValidBits == 0)
+        continue;
       queue_family_ = i;
       timestamp_unit_ns_ = device.getProperties().limits.timestampPeriod;
       name_ = name;
@@ -183,10 +186,12 @@ DeviceBuffer VulkanDevice::allocate(std::uint64_t bytes, vk::BufferUsageFlags us
 
 DeviceBuffer VulkanDevice::make_buffer(std::uint64_t bytes) {
   using Usage = vk::BufferUsageFlagBits;
-  DeviceBuffer result = allocate((bytes + 3) / 4 * 4,
-                                 Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
-                                 vk::MemoryPropertyFlagBits::eDeviceLocal);
-  run([&](const vk::raii::CommandBuffer& commands) { commands.fillBuffer(*result.buffer, 0, VK_WHOLE_SIZE, 0); });
+  DeviceBuffer result =
+      allocate((bytes + 3) / 4 * 4, Usage::eStorageBuffer | Usage::eTransferSrc | Usage::eTransferDst,
+               vk::MemoryPropertyFlagBits::eDeviceLocal);
+  run([&](const vk::raii::CommandBuffer& commands) {
+    commands.fillBuffer(*result.buffer, 0, VK_WHOLE_SIZE, 0);
+  });
   return result;
 }
 
@@ -215,9 +220,10 @@ void VulkanDevice::download(const DeviceBuffer& from, std::span<std::byte> bytes
   run([&](const vk::raii::CommandBuffer& commands) {
     commands.copyBuffer(*from.buffer, *staging_.buffer, vk::BufferCopy(0, 0, bytes.size()));
     // Waiting for the fence does not by itself make the copy visible to the host.
-    commands.pipelineBarrier(vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {},
-                             vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead),
-                             nullptr, nullptr);
+    commands.pipelineBarrier(
+        vk::PipelineStageFlagBits::eTransfer, vk::PipelineStageFlagBits::eHost, {},
+        vk::MemoryBarrier(vk::AccessFlagBits::eTransferWrite, vk::AccessFlagBits::eHostRead), nullptr,
+        nullptr);
   });
   void* mapped = staging_.memory.mapMemory(0, VK_WHOLE_SIZE);
   std::memcpy(bytes.data(), mapped, bytes.size());
@@ -237,7 +243,11 @@ void VulkanDevice::submit() {
     queue_.submit(info, *fence_);
     constexpr std::uint64_t kTimeoutNs = 600'000'000'000;  // a frame that takes ten minutes hangs
     if (device_.waitForFences(*fence_, true, kTimeoutNs) != vk::Result::eSuccess) {
-      throw Error({.code = ErrorCode::io, .what = "the device does not answer", .where = name_, .limit = "", .remedy = ""});
+      throw Error({.code = ErrorCode::io,
+                   .what = "the device does not answer",
+                   .where = name_,
+                   .limit = "",
+                   .remedy = ""});
     }
     device_.resetFences(*fence_);
   } catch (const vk::SystemError& error) {

@@ -40,10 +40,14 @@ constexpr std::uint32_t kMotionLanes = 1024;
 
 ShaderCode sort_code(int block) {
   switch (block) {
-    case 2: return ShaderCode::sort_2;
-    case 4: return ShaderCode::sort_4;
-    case 8: return ShaderCode::sort_8;
-    case 16: return ShaderCode::sort_16;
+    case 2:
+      return ShaderCode::sort_2;
+    case 4:
+      return ShaderCode::sort_4;
+    case 8:
+      return ShaderCode::sort_8;
+    case 16:
+      return ShaderCode::sort_16;
   }
   throw Error({.code = ErrorCode::invalid_input,
                .what = fmt::format("sort blocks of {} pixels", block),
@@ -77,10 +81,13 @@ Pass::Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int
     set_layout_ = vk::raii::DescriptorSetLayout(
         device.handle(), {vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR, bindings});
     const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, push_bytes);
-    layout_ = vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo({}, *set_layout_, range));
-    const vk::raii::ShaderModule module(device.handle(), vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
+    layout_ =
+        vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo({}, *set_layout_, range));
+    const vk::raii::ShaderModule module(device.handle(),
+                                        vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
-    pipeline_ = vk::raii::Pipeline(device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
+    pipeline_ =
+        vk::raii::Pipeline(device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
   } catch (const vk::SystemError& error) {
     throw_vulkan_error(error, "making a pass");
   }
@@ -88,7 +95,7 @@ Pass::Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int
 
 void Pass::record_bytes(const vk::raii::CommandBuffer& commands,
                         std::initializer_list<const DeviceBuffer*> buffers, std::span<const std::byte> push,
-                        std::int64_t invocations) const {
+                        std::int64_t invocations, int rows) const {
   std::vector<vk::DescriptorBufferInfo> infos;
   for (const DeviceBuffer* buffer : buffers) infos.emplace_back(*buffer->buffer, 0, VK_WHOLE_SIZE);
   std::vector<vk::WriteDescriptorSet> writes;
@@ -98,7 +105,8 @@ void Pass::record_bytes(const vk::raii::CommandBuffer& commands,
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, *layout_, 0, writes);
   commands.pushConstants<std::byte>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
-  commands.dispatch(static_cast<std::uint32_t>((invocations + group_size_ - 1) / group_size_), 1, 1);
+  commands.dispatch(static_cast<std::uint32_t>((invocations + group_size_ - 1) / group_size_),
+                    static_cast<std::uint32_t>(rows), 1);
   record_barrier(commands);
 }
 
@@ -107,7 +115,8 @@ void record_barrier(const vk::raii::CommandBuffer& commands) {
   using Access = vk::AccessFlagBits;
   const auto stages = Stage::eComputeShader | Stage::eTransfer;
   const auto writes = Access::eShaderWrite | Access::eTransferWrite;
-  const auto uses = Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite;
+  const auto uses =
+      Access::eShaderRead | Access::eShaderWrite | Access::eTransferRead | Access::eTransferWrite;
   commands.pipelineBarrier(stages, stages, {}, vk::MemoryBarrier(writes, uses), nullptr, nullptr);
 }
 
@@ -129,9 +138,9 @@ void PassTimer::mark(const vk::raii::CommandBuffer& commands, std::string pass) 
 
 std::vector<PassTime> PassTimer::read() const {
   const auto count = static_cast<std::uint32_t>(passes_.size() + 1);
-  const auto [result, stamps] = pool_.getResults<std::uint64_t>(
-      0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
-      vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+  const auto [result, stamps] =
+      pool_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                      vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
   std::vector<PassTime> times;
   for (std::size_t i = 0; i < passes_.size(); ++i) {
     times.push_back({passes_[i], static_cast<double>(stamps[i + 1] - stamps[i]) * unit_ms_});
@@ -156,7 +165,10 @@ VulkanTemporal::VulkanTemporal(VulkanDevice& device, const TemporalTextures& tex
   upload_all(device, mask_, std::vector<std::int32_t>(textures.mask.begin(), textures.mask.end()));
   std::vector<std::uint32_t> moves;
   for (const Grid<Offset>& tile : textures.moves) {
-    for (const Offset& move : tile) moves.push_back(packed(move.x, move.y));
+    // The same move on the torus of the seeds, and shorter than it: the shader wraps only once.
+    for (const Offset& move : tile) {
+      moves.push_back(packed(wrap_centred(move.x, padded_.width), wrap_centred(move.y, padded_.height)));
+    }
   }
   moves_ = device.make_buffer(moves.size() * 4);
   upload_all(device, moves_, moves);
@@ -176,7 +188,8 @@ void VulkanTemporal::record_motion_choice(const vk::raii::CommandBuffer& command
 
 void VulkanTemporal::record_retarget(const vk::raii::CommandBuffer& commands, Offset shift) {
   retarget_.record(commands, {&moves_, &chosen_, &seeds_[current_], &seeds_[1 - current_]},
-                   RetargetPush{ivec2(padded_), ivec2(tile_), ivec2(shift), motion_range_}, padded_.area());
+                   RetargetPush{ivec2(padded_), ivec2(tile_), ivec2(shift), motion_range_}, padded_.width,
+                   padded_.height);
   current_ = 1 - current_;
 }
 

@@ -15,20 +15,21 @@ namespace bn {
 /// One shader as a pipeline. Buffers are bound by position: 0, 1, ...
 class Pass {
  public:
-  Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int buffers, std::uint32_t push_bytes,
-       std::uint32_t group_size);
+  Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int buffers,
+       std::uint32_t push_bytes, std::uint32_t group_size);
 
-  /// Records a dispatch of at least `invocations`, and a barrier after it, so that passes see each
-  /// other's results in the order they are recorded.
+  /// Records a dispatch of at least `invocations` in each of `rows` rows, and a barrier after it, so
+  /// that passes see each other's results in the order they are recorded.
   template <class Push>
   void record(const vk::raii::CommandBuffer& commands, std::initializer_list<const DeviceBuffer*> buffers,
-              const Push& push, std::int64_t invocations) const {
-    record_bytes(commands, buffers, std::as_bytes(std::span(&push, 1)), invocations);
+              const Push& push, std::int64_t invocations, int rows = 1) const {
+    record_bytes(commands, buffers, std::as_bytes(std::span(&push, 1)), invocations, rows);
   }
 
  private:
-  void record_bytes(const vk::raii::CommandBuffer& commands, std::initializer_list<const DeviceBuffer*> buffers,
-                    std::span<const std::byte> push, std::int64_t invocations) const;
+  void record_bytes(const vk::raii::CommandBuffer& commands,
+                    std::initializer_list<const DeviceBuffer*> buffers, std::span<const std::byte> push,
+                    std::int64_t invocations, int rows) const;
 
   vk::raii::DescriptorSetLayout set_layout_{nullptr};
   vk::raii::PipelineLayout layout_{nullptr};

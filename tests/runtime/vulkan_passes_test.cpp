@@ -54,7 +54,8 @@ void expect_equal_runs(Extent screen, int block, bool jitter, int frames) {
     for (std::size_t i = 0; i < luminance.count(); ++i) {
       const auto pixel = static_cast<std::uint32_t>(i);
       // Few levels, so that ties are common; sometimes negative.
-      luminance[i] = static_cast<float>(static_cast<int>(sample(pixel, static_cast<std::uint32_t>(frame)) * 64.0f) - 2);
+      luminance[i] =
+          static_cast<float>(static_cast<int>(sample(pixel, static_cast<std::uint32_t>(frame)) * 64.0f) - 2);
       const bool known = sample(pixel, 1000) > 0.3f;
       motion[i] = known ? PixelMotion{static_cast<std::int16_t>(frame * 200 - 600),
                                       static_cast<std::int16_t>(300 - frame * 128)}

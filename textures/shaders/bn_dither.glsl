@@ -7,8 +7,13 @@
 #ifndef BN_DITHER_GLSL
 #define BN_DITHER_GLSL
 
-// The texel for `pixel` (not negative).
-ivec2 bn_texel(ivec2 pixel, ivec2 shift, ivec2 tile) { return (pixel + shift) % tile; }
+// The texel for `pixel`, (pixel + shift) mod tile. Coordinates 0..131071. By one division of floats,
+// which every device does faster than integers: the half keeps the quotient further from a whole
+// number than any rounding reaches.
+ivec2 bn_texel(ivec2 pixel, ivec2 shift, ivec2 tile) {
+  ivec2 at = pixel + shift;
+  return at - tile * ivec2((vec2(at) + 0.5) / vec2(tile));
+}
 
 // A mask sample of 8 bits as a number in the middle of its level, for dithering: never 0, never 1.
 float bn_level(uint sample8) { return (float(sample8) + 0.5) / 256.0; }

@@ -17,8 +17,8 @@
 
 ivec2 bn_retarget(ivec2 pixel, ivec2 shift, ivec2 tile, ivec2 size) {
   ivec2 to = pixel + BN_LOAD_MOVE(bn_texel(pixel, shift, tile));
-  // % of a negative number is undefined in GLSL; a move is at least -128.
-  return (to + 128 * size) % size;
+  // Moves are shorter than the seed image.
+  return to + size * (ivec2(lessThan(to, ivec2(0))) - ivec2(greaterThanEqual(to, size)));
 }
 
 #endif

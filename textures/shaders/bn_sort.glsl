@@ -2,8 +2,9 @@
 //
 // In each block the seed of the k-th darkest pixel goes to the pixel with the k-th lowest mask level.
 // One invocation sorts one block, in registers, by a network without branches or barriers: Batcher's
-// odd-even merge sort (K. E. Batcher, "Sorting networks and their applications", AFIPS 1968). Both
-// orders are sorted at once, as the two components of a key. All indices are constants after unrolling.
+// bitonic sort (K. E. Batcher, "Sorting networks and their applications", AFIPS 1968), every
+// comparison upwards. Both orders are sorted at once, as the two components of a
+// key. All indices into arrays are constants.
 //
 // A key is a quantity above and the pixel's index in the block in the low 8 bits, so all keys differ
 // and the order is the same on every device. Luminance is compared by its exponent and 16 fraction
@@ -29,36 +30,43 @@ uint bn_luminance_key(float luminance, uint index) {
   return ((bits << 1) & ~255u) | index;
 }
 
-// One step of the network: within groups of 2 * `group` keys, compares those `reach` apart.
-void bn_compare(uint group, uint reach) {
-  [[unroll]] for (uint i = 0u; i < bn_pixels - reach; ++i) {
-    bool lower = i >= reach % group && (i - reach % group) % (2u * reach) < reach;
-    if (lower && i / (2u * group) == (i + reach) / (2u * group)) {
-      uvec2 a = bn_key[i];
-      uvec2 b = bn_key[i + reach];
-      bn_key[i] = min(a, b);
-      bn_key[i + reach] = max(a, b);
-    }
-  }
-}
+// The network is written out by the preprocessor: as loops it would cost compilers half a minute at
+// 16 x 16. BN_PAIRS(step, size) makes step(t, size) for every pair t of the block.
+#define BN_2(step, t, size) step((t), size) step((t + 1u), size)
+#define BN_8(step, t, size) BN_2(step, t, size) BN_2(step, t + 2u, size) BN_2(step, t + 4u, size) BN_2(step, t + 6u, size)
+#define BN_32(step, t, size) BN_8(step, t, size) BN_8(step, t + 8u, size) BN_8(step, t + 16u, size) BN_8(step, t + 24u, size)
+#if BN_BLOCK == 2
+#define BN_PAIRS(step, size) BN_2(step, 0u, size)
+#elif BN_BLOCK == 4
+#define BN_PAIRS(step, size) BN_8(step, 0u, size)
+#elif BN_BLOCK == 8
+#define BN_PAIRS(step, size) BN_32(step, 0u, size)
+#else
+#define BN_PAIRS(step, size) BN_32(step, 0u, size) BN_32(step, 32u, size) BN_32(step, 64u, size) BN_32(step, 96u, size)
+#endif
+
+#define BN_ORDER(i, j) { uvec2 a = bn_key[i]; uvec2 b = bn_key[j]; bn_key[i] = min(a, b); bn_key[j] = max(a, b); }
+// Two sorted runs of `run` keys: first against last, second against last but one, ...
+#define BN_FOLD_PAIR(t, run) BN_ORDER(2u * t - t % run, 2u * t - 2u * (t % run) + 2u * run - 1u - t % run)
+// Then within halves, quarters, ...
+#define BN_HALVE_PAIR(t, reach) BN_ORDER(2u * t - t % reach, 2u * t - t % reach + reach)
+#define BN_FOLD(run) BN_PAIRS(BN_FOLD_PAIR, run)
+#define BN_HALVE(reach) BN_PAIRS(BN_HALVE_PAIR, reach)
 
 void bn_sort_keys() {
-  bn_compare(1u, 1u);
-  bn_compare(2u, 2u); bn_compare(2u, 1u);
+  BN_FOLD(1u)
+  BN_FOLD(2u) BN_HALVE(1u)
 #if BN_BLOCK > 2
-  bn_compare(4u, 4u); bn_compare(4u, 2u); bn_compare(4u, 1u);
-  bn_compare(8u, 8u); bn_compare(8u, 4u); bn_compare(8u, 2u); bn_compare(8u, 1u);
+  BN_FOLD(4u) BN_HALVE(2u) BN_HALVE(1u)
+  BN_FOLD(8u) BN_HALVE(4u) BN_HALVE(2u) BN_HALVE(1u)
 #endif
 #if BN_BLOCK > 4
-  bn_compare(16u, 16u); bn_compare(16u, 8u); bn_compare(16u, 4u); bn_compare(16u, 2u); bn_compare(16u, 1u);
-  bn_compare(32u, 32u); bn_compare(32u, 16u); bn_compare(32u, 8u); bn_compare(32u, 4u); bn_compare(32u, 2u);
-  bn_compare(32u, 1u);
+  BN_FOLD(16u) BN_HALVE(8u) BN_HALVE(4u) BN_HALVE(2u) BN_HALVE(1u)
+  BN_FOLD(32u) BN_HALVE(16u) BN_HALVE(8u) BN_HALVE(4u) BN_HALVE(2u) BN_HALVE(1u)
 #endif
 #if BN_BLOCK > 8
-  bn_compare(64u, 64u); bn_compare(64u, 32u); bn_compare(64u, 16u); bn_compare(64u, 8u); bn_compare(64u, 4u);
-  bn_compare(64u, 2u); bn_compare(64u, 1u);
-  bn_compare(128u, 128u); bn_compare(128u, 64u); bn_compare(128u, 32u); bn_compare(128u, 16u);
-  bn_compare(128u, 8u); bn_compare(128u, 4u); bn_compare(128u, 2u); bn_compare(128u, 1u);
+  BN_FOLD(64u) BN_HALVE(32u) BN_HALVE(16u) BN_HALVE(8u) BN_HALVE(4u) BN_HALVE(2u) BN_HALVE(1u)
+  BN_FOLD(128u) BN_HALVE(64u) BN_HALVE(32u) BN_HALVE(16u) BN_HALVE(8u) BN_HALVE(4u) BN_HALVE(2u) BN_HALVE(1u)
 #endif
 }
 

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-layout(local_size_x = 64) in;
+layout(local_size_x = 64) in;  // along a row; y is the row
 
 layout(std430, binding = 0) readonly buffer Moves { uint moves[]; };  // two 16-bit signed numbers
 layout(std430, binding = 1) readonly buffer Chosen { ivec2 motion; };
@@ -26,8 +26,8 @@ ivec2 load_move(ivec2 texel) {
 #include "bn_retarget.glsl"
 
 void main() {
-  int index = int(gl_GlobalInvocationID.x);
-  if (index >= size.x * size.y) return;
-  ivec2 to = bn_retarget(ivec2(index % size.x, index / size.x), shift, tile, size);
-  moved[to.y * size.x + to.x] = seeds[index];
+  ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+  if (pixel.x >= size.x) return;
+  ivec2 to = bn_retarget(pixel, shift, tile, size);
+  moved[to.y * size.x + to.x] = seeds[pixel.y * size.x + pixel.x];
 }
