@@ -8,25 +8,25 @@ namespace bn {
 namespace {
 
 constexpr std::uint32_t kSort2[] =
-#include "sort_2.inc"
+#include "runtime/sort_2.inc"
     ;
 constexpr std::uint32_t kSort4[] =
-#include "sort_4.inc"
+#include "runtime/sort_4.inc"
     ;
 constexpr std::uint32_t kSort8[] =
-#include "sort_8.inc"
+#include "runtime/sort_8.inc"
     ;
 constexpr std::uint32_t kSort16[] =
-#include "sort_16.inc"
+#include "runtime/sort_16.inc"
     ;
 constexpr std::uint32_t kRetarget[] =
-#include "retarget.inc"
+#include "runtime/retarget.inc"
     ;
 constexpr std::uint32_t kMotionSum[] =
-#include "motion_sum.inc"
+#include "runtime/motion_sum.inc"
     ;
 constexpr std::uint32_t kMotionChoose[] =
-#include "motion_choose.inc"
+#include "runtime/motion_choose.inc"
     ;
 
 }  // namespace
