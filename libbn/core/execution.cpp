@@ -8,11 +8,20 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <map>
 
 namespace bn {
 namespace {
 
 constexpr int kMaxThreads = 1024;
+constexpr int kMostOversubscribed = 8;
+
+/// This thread's arena of exactly `threads` slots. Kept from call to call, since making one costs more
+/// than many a loop; one for each calling thread, so that nested loops never wait for each other's slots.
+tbb::task_arena& arena_of(int threads) {
+  thread_local std::map<int, tbb::task_arena> arenas;
+  return arenas.try_emplace(threads, threads).first->second;
+}
 
 }  // namespace
 
@@ -51,12 +60,13 @@ void parallel_for(const Execution& execution, std::int64_t count,
     for (std::int64_t i = 0; i < count; ++i) body(i);
     return;
   }
-  // An arena of its own gives exactly `threads` slots, also more than the machine has cores: the
-  // tests rely on it to show that the number changes nothing. Workers beyond the cores come only
-  // where the process-wide limit allows them.
-  static const tbb::global_control allow_more_than_cores(tbb::global_control::max_allowed_parallelism,
-                                                         kMaxThreads);
-  tbb::task_arena arena(threads);
+  // The process-wide limit lets the tests run more threads than the machine has cores, to show that
+  // the number changes nothing. It is no higher than that: TBB may start a worker for every arena
+  // that was ever made.
+  static const tbb::global_control most_threads(
+      tbb::global_control::max_allowed_parallelism,
+      static_cast<std::size_t>(std::max(tbb::info::default_concurrency(), kMostOversubscribed)));
+  tbb::task_arena& arena = arena_of(threads);
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::int64_t>(0, count, 1),

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <filesystem>
+#include <iterator>
+#include <thread>
 #include <vector>
 
 #include "core/progress.h"
@@ -21,6 +24,24 @@ TEST_P(ParallelFor, VisitsEveryIndexOnce) {
                  [&](std::int64_t i) { ++visits[static_cast<std::size_t>(i)]; });
     EXPECT_TRUE(std::all_of(visits.begin(), visits.end(), [](const auto& v) { return v == 1; })) << count;
   }
+}
+
+// Loops are called thousands of times in a second; threads must not pile up.
+TEST_P(ParallelFor, KeepsTheNumberOfThreadsBounded) {
+  const auto threads_of_process = [] {
+    const auto tasks = std::filesystem::directory_iterator("/proc/self/task");
+    return std::distance(begin(tasks), end(tasks));
+  };
+  for (int call = 0; call < 2000; ++call) parallel_for({.threads = GetParam()}, 8, [](std::int64_t) {});
+  EXPECT_LE(threads_of_process(), std::max(8u, std::thread::hardware_concurrency()) + 2);
+}
+
+TEST_P(ParallelFor, Nests) {
+  std::atomic<int> calls = 0;
+  const Execution execution{.threads = GetParam()};
+  parallel_for(execution, 6,
+               [&](std::int64_t) { parallel_for(execution, 5, [&](std::int64_t) { ++calls; }); });
+  EXPECT_EQ(calls, 30);
 }
 
 TEST_P(ParallelFor, RethrowsTheBodysException) {

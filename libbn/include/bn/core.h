@@ -166,7 +166,7 @@ constexpr std::uint32_t random_below(std::uint32_t bits, std::uint32_t bound) {
 
 /// How a long computation runs. None of this can change a result, only whether and when it comes.
 struct Execution {
-  /// Threads to use, 1..1024; 0 takes every core this process may run on.
+  /// Threads to use at most, 1..1024; 0 takes every core this process may run on.
   int threads = 0;
   /// Request a stop and the computation ends soon with ErrorCode::cancelled.
   std::stop_token stop = {};
