@@ -85,6 +85,15 @@ std::string usage_line(const Verb& verb) {
   return text + " [OPTIONS]";
 }
 
+/// What a verb's help says that no other's does; ends without an empty line.
+std::string own_help(const Verb& verb) {
+  std::string text =
+      examples_text(verb.examples) + wrapped(verb.details, 0) + "\n\nUsage: " + usage_line(verb) + "\n\n" +
+      arguments_text("Arguments", verb.arguments, true) + arguments_text("Options", verb.arguments, false);
+  text.pop_back();
+  return text;
+}
+
 bool is_in_group(const Verb& verb, const std::string& group) { return verb.name.starts_with(group + " "); }
 
 }  // namespace
@@ -118,16 +127,13 @@ std::string group_help(const std::string& group, const std::vector<Verb>& verbs)
 }
 
 std::string verb_help(const Verb& verb, const Arguments& globals) {
-  return examples_text(verb.examples) + wrapped(verb.details, 0) + "\n\n" + "Usage: " + usage_line(verb) +
-         "\n\n" + arguments_text("Arguments", verb.arguments, true) +
-         arguments_text("Options", verb.arguments, false) +
-         arguments_text("Options of every verb", globals, false) + std::string(kExitCodes);
+  return own_help(verb) + "\n" + arguments_text("Options of every verb", globals, false) +
+         std::string(kExitCodes);
 }
 
 std::string manual(const std::vector<Verb>& verbs, const Arguments& globals) {
   std::string text = "## bn\n\n```\n" + overview_help(verbs, globals) + "```\n";
-  for (const auto& verb : verbs)
-    text += fmt::format("\n## bn {}\n\n```\n{}```\n", verb.name, verb_help(verb, globals));
+  for (const auto& verb : verbs) text += fmt::format("\n## bn {}\n\n```\n{}```\n", verb.name, own_help(verb));
   return text;
 }
 

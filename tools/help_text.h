@@ -15,7 +15,7 @@ std::string overview_help(const std::vector<Verb>& verbs, const Arguments& globa
 std::string group_help(const std::string& group, const std::vector<Verb>& verbs);
 /// bn bake --help
 std::string verb_help(const Verb& verb, const Arguments& globals);
-/// bn help --all: everything above, as Markdown.
+/// bn help --all: everything above as Markdown, without repeating what all verbs share.
 std::string manual(const std::vector<Verb>& verbs, const Arguments& globals);
 
 }  // namespace bn::tools

@@ -47,20 +47,6 @@ std::optional<std::pair<std::string_view, std::string_view>> halves(std::string_
   return std::pair(text.substr(0, at), text.substr(at + 1));
 }
 
-template <class Allow>
-ValueKind<double> real(std::string allowed, Allow allow) {
-  return {.placeholder = "NUMBER",
-          .allowed = allowed,
-          .parse =
-              [allowed, allow](std::string_view text, std::string_view where) {
-                const auto value = whole_number<double>(text);
-                if (!value) fail(text, where, "is no number", allowed);
-                if (!allow(*value)) fail(text, where, "is out of range", allowed);
-                return *value;
-              },
-          .show = [](const double& value) { return fmt::format("{}", value); }};
-}
-
 ValueKind<std::filesystem::path> path(std::string placeholder, Completion completion) {
   return {.placeholder = std::move(placeholder),
           .allowed = "",
@@ -108,26 +94,33 @@ ValueKind<int> integer_in(int low, int high) {
           .show = [](const int& value) { return fmt::format("{}", value); }};
 }
 
-ValueKind<std::uint64_t> any_seed() {
+ValueKind<std::uint64_t> seed_value() {
+  constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+  const std::string allowed = fmt::format("0..{}", kLargest);
   return {.placeholder = "N",
-          .allowed = "0..18446744073709551615",
+          .allowed = allowed,
           .parse =
-              [](std::string_view text, std::string_view where) {
-                const auto value = whole_number<std::uint64_t>(text);
-                if (!value) fail(text, where, "is no seed", "0..18446744073709551615");
+              [=](std::string_view text, std::string_view where) {
+                const auto value = saturated_number<std::uint64_t>(text);
+                if (!value) fail(text, where, "is no seed", allowed);
+                if (*value > kLargest) fail(text, where, "is out of range", allowed);
                 return *value;
               },
           .show = [](const std::uint64_t& value) { return fmt::format("{}", value); }};
 }
 
 ValueKind<double> real_in(double low, double high, std::string unit) {
-  return real(fmt::format("{}..{}{}", low, high, unit.empty() ? "" : " " + unit),
-              [=](double value) { return value >= low && value <= high; });
-}
-
-ValueKind<double> real_above(double low, double high) {
-  return real(fmt::format("above {}, at most {}", low, high),
-              [=](double value) { return value > low && value <= high; });
+  const std::string allowed = fmt::format("{}..{}{}", low, high, unit.empty() ? "" : " " + unit);
+  return {.placeholder = "NUMBER",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                const auto value = whole_number<double>(text);
+                if (!value) fail(text, where, "is no number", allowed);
+                if (!(*value >= low && *value <= high)) fail(text, where, "is out of range", allowed);
+                return *value;
+              },
+          .show = [](const double& value) { return fmt::format("{}", value); }};
 }
 
 ValueKind<double> percentage_in(double low_percent, double high_percent) {

@@ -32,10 +32,10 @@ struct ValueKind {
 };
 
 ValueKind<int> integer_in(int low, int high);
-ValueKind<std::uint64_t> any_seed();
+/// 0..2^63-1: what recipes, in TOML, can write.
+ValueKind<std::uint64_t> seed_value();
+/// Decimal points, never commas, whatever the locale.
 ValueKind<double> real_in(double low, double high, std::string unit = "");
-/// Above `low` and at most `high`.
-ValueKind<double> real_above(double low, double high);
 /// "0.5%" is 0.005. The sign is required: 0.5 alone could be meant either way.
 ValueKind<double> percentage_in(double low_percent, double high_percent);
 /// "256x128", each side in low..high.

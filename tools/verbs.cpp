@@ -3,12 +3,19 @@
 namespace bn::tools {
 
 // A new verb: a file of its name that defines `Verb name_verb()`, and one line in each list.
+Verb bake_verb();
 Verb completion_verb();
 Verb help_verb();
+Verb info_verb();
+Verb retarget_verb();
+Verb verify_verb();
+Verb noise_void_and_cluster_verb();
 
 std::vector<Verb> all_verbs() {
   return {
-      completion_verb(),
+      bake_verb(),     noise_void_and_cluster_verb(),
+      retarget_verb(), info_verb(),
+      verify_verb(),   completion_verb(),
       help_verb(),
   };
 }
