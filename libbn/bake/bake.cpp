@@ -219,6 +219,20 @@ OnFile written(const BakeEvents& events) {
   };
 }
 
+/// The recipe that a file will carry must be one: this holds the options to the ranges of a recipe,
+/// and paths to text that TOML can hold, before any work.
+void check_recipes(const std::vector<JobFile>& files) {
+  for (const JobFile& file : files) {
+    try {
+      parse_recipe(file.recipe, file.name, "");
+    } catch (const Error& error) {
+      ErrorInfo info = error.info();
+      info.where = file.name;  // the line is one of a text that nobody has seen
+      throw Error(info);
+    }
+  }
+}
+
 /// Passes the progress of a single job on as that of a bake.
 Execution metered(const Execution& execution, BakeMeter& meter) {
   Execution inner = execution;
@@ -234,23 +248,26 @@ BakeResult bake(const Recipe& recipe, const BakeOptions& options, const Executio
 }
 
 JobRecord make_mask(const MaskEntry& entry, const Execution& execution, const BakeEvents& events) {
+  const std::vector<JobFile> files = free_mask_files(entry);
+  check_recipes(files);
   for (const MaskOutput& output : entry.outputs) check_writable(output.path, output.type, 1);
   BakePlan plan;
   plan.jobs = {{.kind = JobKind::mask, .name = entry.name, .files = {}, .estimated_seconds = 1.0}};
   BakeMeter meter(plan, execution, events);
-  JobRecord job = run_mask_job(entry, free_mask_files(entry), metered(execution, meter), written(events));
+  JobRecord job = run_mask_job(entry, files, metered(execution, meter), written(events));
   meter.finish();
   return job;
 }
 
 JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, const BakeEvents& events) {
+  const std::vector<JobFile> files = free_retarget_files(entry);
+  check_recipes(files);
   for (const RetargetOutput& output : entry.outputs) check_writable(output.path, SampleType::u8, 3);
   const Source source = read_source(entry.image, entry.channel, execution);
   BakePlan plan;
   plan.jobs = {{.kind = JobKind::retarget, .name = entry.name, .files = {}, .estimated_seconds = 1.0}};
   BakeMeter meter(plan, execution, events);
-  JobRecord job =
-      run_retarget_job(entry, source, free_retarget_files(entry), metered(execution, meter), written(events));
+  JobRecord job = run_retarget_job(entry, source, files, metered(execution, meter), written(events));
   meter.finish();
   return job;
 }

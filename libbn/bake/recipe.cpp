@@ -13,6 +13,7 @@
 
 #include "bake/job.h"
 #include "bake/recipe_reader.h"
+#include "bake/toml_check.h"
 #include "bn/bake.h"
 
 namespace bn {
@@ -317,6 +318,9 @@ Recipe parse_recipe(std::string_view text, const std::string& name, const std::f
                  .limit = fmt::format("at most {} bytes", kMaxRecipeBytes),
                  .remedy = "split the recipe"});
   }
+  Mistakes mistakes(name);
+  check_toml(text, mistakes);
+  mistakes.throw_if_any();
   toml::table root;
   try {
     root = toml::parse(text);

@@ -242,6 +242,28 @@ TEST(MakeRetarget, WritesAFileThatVerifiesAndWhoseRecipeMakesItAgain) {
   EXPECT_EQ(bytes_of(folder / "tiles/atlas.png"), before);
 }
 
+TEST(MakeMask, ChecksItsOptionsBeforeTheWork) {
+  const TemporaryFolder folder;
+  MaskEntry sound{.name = "mask", .options = {.size = {16, 8}}};
+  sound.outputs = {{.path = (folder / "mask.png").string()}};
+  const auto refused = [&](auto change, const std::string& says) {
+    MaskEntry entry = sound;
+    change(entry);
+    try {
+      make_mask(entry);
+      ADD_FAILURE() << "accepted: " << says;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_input);
+      EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+    }
+  };
+  refused([](MaskEntry& entry) { entry.options.sigma_px = 17.0; }, "sigma is 17 (allowed: 0.3..16)");
+  refused([](MaskEntry& entry) { entry.options.seed = ~std::uint64_t{0}; }, "");
+  refused([&](MaskEntry& entry) { entry.outputs[0].path = (folder / "\xff.png").string(); }, "");
+  refused([&](MaskEntry& entry) { entry.outputs[0].path = (folder / "mask.jpg").string(); }, ".png");
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
 /// A grey picture whose pixel (x, y) is value(x, y), as a PNG without metadata of a mask.
 template <class Value>
 std::string make_picture(const fs::path& path, Extent size, Value value) {

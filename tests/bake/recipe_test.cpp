@@ -97,13 +97,20 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Mistake{1, "version = 2", {"version is 2", "allowed: 1..1"}},
         Mistake{1, "# none", {"version is missing", "begin with version = 1"}},
-        Mistake{1, "version = 1\nversion = 1", {"allowed: TOML 1.0"}, 2}, Mistake{1, "version = ", {"TOML"}},
+        Mistake{1, "version = 1\nversion = 1", {"allowed: TOML 1.0"}, 2},
+        Mistake{1, "version = ", {"allowed: TOML 1.0"}},
         Mistake{1,
                 "version = 1\ncolour = 3",
                 {"unknown key 'colour'", "contact_sheet, mask, retarget, version"},
                 2},
         Mistake{1, "version = 1\ncontact_sheet = 'a.jpg'", {"contact_sheet is 'a.jpg'", ".png"}, 2},
         Mistake{1, "version = 1\ncontact_sheet = 'm.png'", {"written already, by line 2"}, 6},
+        Mistake{2, "[.mask]", {"a table header without a key"}},  // once undefined behaviour
+        Mistake{2, "\t[[ ]]", {"a table header without a key"}},
+        Mistake{
+            4, "size \u00e4\u0620= [16, 16]", {"a character beyond ASCII outside a string"}},  // once, too
+        Mistake{3, "name = \"\"\"m\"\"\"", {"a string of several lines"}},
+        Mistake{3, "name = 'm", {"a string without its end"}},
         Mistake{2, "[mask]", {"mask is a table", "[[mask]]"}, 2},
         Mistake{3, "", {"name is missing", "1..64"}, 2},
         Mistake{3, "name = 'a b'", {"name is not acceptable", "letters"}},
