@@ -1,0 +1,49 @@
+// Any bytes: the parser answers with a recipe or a bn::Error that says where; and a recipe that came
+// out, written out whole, reads back the same and keeps every promise of the language.
+#include <cstdio>
+#include <cstdlib>
+
+#include "bn/bake.h"
+
+namespace {
+
+using namespace bn;
+
+void require(bool condition, const char* what) {
+  if (condition) return;
+  std::fprintf(stderr, "broken promise: %s\n", what);
+  std::abort();
+}
+
+void check_inside(const std::string& path) {
+  const std::filesystem::path normal = std::filesystem::path("out") / path;
+  const std::string text = normal.lexically_normal().string();
+  require(text.starts_with("out/") && text.size() > 4, "outputs stay in the output folder");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Recipe recipe;
+  try {
+    recipe = parse_recipe({reinterpret_cast<const char*>(data), size}, "input", "");
+  } catch (const Error& error) {
+    require(std::string_view(error.what()).starts_with("input"), "an error says where");
+    return 0;
+  }
+  for (const MaskEntry& mask : recipe.masks) {
+    require(mask.options.size.width >= 1 && mask.options.size.height <= 16384, "sizes are in range");
+    require(mask.options.sigma_px >= 0.3 && mask.options.sigma_px <= 16.0, "sigma is in range");
+    require(!mask.outputs.empty(), "a mask has a file");
+    for (const MaskOutput& output : mask.outputs) check_inside(output.path);
+  }
+  for (const RetargetEntry& set : recipe.retargets) {
+    require(set.mask.empty() != set.image.empty(), "a set has one source");
+    require(set.options.radius >= 1 && set.options.radius + set.motion <= 127, "moves fit 8 bits");
+    require(set.options.gap >= 0.0 && set.options.gap <= 1.0, "the gap is a share");
+    for (const RetargetOutput& output : set.outputs) check_inside(output.path);
+  }
+  const std::string text = recipe_text(recipe);
+  require(text == recipe_text(parse_recipe(text, "again", "")), "written out it reads back the same");
+  return 0;
+}
