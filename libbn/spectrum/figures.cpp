@@ -1,7 +1,5 @@
 // Figures of merit: what is left of a spectrum when it must fit on one line.
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -57,15 +55,6 @@ void find_anisotropy(const RadialCurve& curve, FiguresOfMerit& figures) {
   figures.anisotropy_db_max = annuli > 0 ? largest : kNaN;
 }
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }
-
-template <class Values>
-std::string array(const Values& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
-  return "[" + text + "]";
-}
-
 }  // namespace
 
 FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max_deviation) {
@@ -98,18 +87,6 @@ Analysis analyse(std::span<const double> values, Shape shape, double low, double
                             : power_spectrum(midranks(values, execution), shape, execution);
   FiguresOfMerit figures = figures_of_merit(power, deviation);
   return {std::move(power), figures};
-}
-
-std::string to_json(const FiguresOfMerit& figures) {
-  std::string text = fmt::format(
-      "{{\"width\": {}, \"height\": {}, \"depth\": {}, \"textures\": {}, \"bands\": {}, \"peak\": {}, "
-      "\"peak_frequency\": {}, \"anisotropy_db_mean\": {}, \"anisotropy_db_max\": {}, \"gauss_residual_db\": {}, "
-      "\"histogram_max_deviation\": {}",
-      figures.shape.width, figures.shape.height, figures.shape.depth, figures.textures, array(figures.bands.mean),
-      number(figures.peak), number(figures.peak_frequency), number(figures.anisotropy_db_mean),
-      number(figures.anisotropy_db_max), array(figures.gauss_residual_db), number(figures.histogram_max_deviation));
-  if (figures.shape.depth > 1) text += ", \"temporal_power_at_0\": " + number(figures.temporal_power_at_0);
-  return text + "}";
 }
 
 }  // namespace bn

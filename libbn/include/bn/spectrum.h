@@ -181,6 +181,13 @@ struct Analysis {
 Analysis analyse(std::span<const double> values, Shape shape, double low, double high,
                  const Execution& execution = {});
 
+/// The centred power in grey, in decibels: `low_db` and less is 0, `high_db` and more 255; white noise is 0 dB.
+Grid<std::uint8_t> log_picture(const PowerSpectrum& power, double low_db = -50.0, double high_db = 12.5);
+
+/// Lines "axis,frequency,power,anisotropy_db,count", with a header: the radial curve (axis "space"), and for a
+/// volume the curve in time after it (axis "time"). Undefined values are empty.
+std::string curves_csv(const PowerSpectrum& power);
+
 /// One JSON object: bands, peak, peak_frequency, anisotropy_db_mean, anisotropy_db_max,
 /// gauss_residual_db, histogram_max_deviation, width, height, depth, textures, and for volumes
 /// temporal_power_at_0. Undefined figures are null.
