@@ -8,14 +8,17 @@ Verb completion_verb();
 Verb help_verb();
 Verb info_verb();
 Verb retarget_verb();
+Verb spectrum_verb();
+Verb study_fft_verb();
 Verb verify_verb();
 Verb noise_void_and_cluster_verb();
 
 std::vector<Verb> all_verbs() {
   return {
-      bake_verb(),     noise_void_and_cluster_verb(),
-      retarget_verb(), info_verb(),
-      verify_verb(),   completion_verb(),
+      bake_verb(),      noise_void_and_cluster_verb(),
+      retarget_verb(),  info_verb(),
+      verify_verb(),    spectrum_verb(),
+      study_fft_verb(), completion_verb(),
       help_verb(),
   };
 }
