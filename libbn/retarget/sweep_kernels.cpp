@@ -43,11 +43,11 @@ HWY_INLINE V mix_lanes(D32 d, V x, V key) {
 }
 
 /// min(metropolis_threshold(), cap), in the same operations.
-template <class D32, class V = hn::Vec<D32>>
-HWY_INLINE hn::Vec<hn::Repartition<std::int32_t, D32>> threshold_lanes(D32 du, V bits, float temperature,
-                                                                       float cap) {
+template <class D32, class VF, class V = hn::Vec<D32>>
+HWY_INLINE auto threshold_lanes(D32 du, V bits, VF temperature, float cap) {
   const hn::Repartition<float, D32> df;
-  const hn::Repartition<std::int32_t, D32> di;
+  const hn::RebindToSigned<D32> di;
+  (void)du;
   const auto scaled = hn::Add(hn::ConvertTo(df, hn::BitCast(di, hn::ShiftRight<9>(bits))), hn::Set(df, 0.5f));
   const auto pattern = hn::BitCast(di, scaled);
   const auto octaves = hn::ConvertTo(df, hn::Sub(hn::Set(di, 127 + 23), hn::ShiftRight<23>(pattern)));
@@ -58,8 +58,7 @@ HWY_INLINE hn::Vec<hn::Repartition<std::int32_t, D32>> threshold_lanes(D32 du, V
   log = hn::Mul(log, t);
   const auto minus_log =
       hn::Max(hn::Sub(hn::Mul(octaves, hn::Set(df, kLn2Single)), log), hn::Set(df, kLeastMinusLog));
-  (void)du;
-  return hn::ConvertTo(di, hn::Min(hn::Mul(minus_log, hn::Set(df, temperature)), hn::Set(df, cap)));
+  return hn::ConvertTo(di, hn::Min(hn::Mul(minus_log, temperature), hn::Set(df, cap)));
 }
 
 /// What one sweep's vectors share.
@@ -72,6 +71,7 @@ class RowSweeper {
   using D8 = hn::Repartition<std::uint8_t, D>;
   using DU32 = hn::Repartition<std::uint32_t, D>;
   using DI32 = hn::Repartition<std::int32_t, D>;
+  using DF = hn::Repartition<float, D>;
   using V8 = hn::Vec<D8>;
   static constexpr bool kNarrow = sizeof(Lane) == 2;
   /// Above every change of energy that fits the lane.
@@ -80,29 +80,51 @@ class RowSweeper {
  public:
   RowSweeper(SweepState<Lane>& state, const Sweep& sweep) : state_(state), sweep_(sweep) {
     const ReachBytes& r = state.reach;
-    plus_ = byte_pair(wrap(sweep.s.x, r.period_x), wrap(sweep.s.y, r.period_y));
-    minus_ = byte_pair(wrap(-sweep.s.x, r.period_x), wrap(-sweep.s.y, r.period_y));
-    period_ = byte_pair(r.period_x & 255, r.period_y & 255);
-    limit_ = r.euclidean ? static_cast<Lane>(r.limit) : byte_pair(r.limit, r.limit);
+    const D d;
+    const D8 d8;
+    plus_ = byte_pairs(wrap(sweep.s.x, r.period_x), wrap(sweep.s.y, r.period_y));
+    minus_ = byte_pairs(wrap(-sweep.s.x, r.period_x), wrap(-sweep.s.y, r.period_y));
+    period_ = byte_pairs(r.period_x, r.period_y);
+    limit_ =
+        r.euclidean ? hn::BitCast(d8, hn::Set(d, static_cast<Lane>(r.limit))) : byte_pairs(r.limit, r.limit);
     periodic_ = r.period_x != 256 || r.period_y != 256;
+    euclidean_ = r.euclidean;
     // Bits 0 give the largest threshold by far: the next larger u is three times as large.
-    most_ = static_cast<Lane>(std::min(static_cast<float>(metropolis_threshold(0, sweep.temperature)), kCap));
+    most_ = hn::Set(
+        d, static_cast<Lane>(std::min(static_cast<float>(metropolis_threshold(0, sweep.temperature)), kCap)));
+
+    const DU32 du;
+    temperature_ = hn::Set(DF(), sweep.temperature);
+    const auto even = hn::Set(du, sweep.key_even), odd = hn::Set(du, sweep.key_odd);
+    if constexpr (kNarrow) {
+      // A word of 32 bits belongs to an even column and its neighbour.
+      index_ = hn::Mul(hn::Iota(du, 0u), hn::Set(du, kGolden));
+      key_ = even;
+      other_key_ = odd;
+    } else {
+      const auto lane = hn::Iota(du, 0u);
+      const auto is_odd = hn::Ne(hn::And(lane, hn::Set(du, 1u)), hn::Zero(du));
+      index_ = hn::Mul(hn::ShiftRight<1>(lane), hn::Set(du, kGolden));
+      key_ = hn::IfThenElse(is_odd, odd, even);
+      other_key_ = hn::IfThenElse(is_odd, even, odd);
+    }
   }
 
   /// Columns from..end - 1 of row y with row q_y; `first_partner`, if not null, tells which columns count.
   void columns(int y, int q_y, int from, int end, const Lane* first_partner) {
     const auto lanes = static_cast<int>(hn::Lanes(D()));
+    const Rows rows = rows_of(y, q_y, 0);
     while (from < end) {
       // Even, so that a pair of columns shares a random word; and inside the row's storage.
       int x = from & ~1;
       if (x + lanes > state_.width + 1) x = std::max(0, (state_.width - lanes + 1) & ~1);
-      const bool whole = x == from && x + lanes <= end;
       if (first_partner != nullptr) {
-        vector<true>(y, q_y, x, and_range(x, from, end, hn::MaskFromVec(hn::LoadU(D(), first_partner + x))));
-      } else if (whole) {
-        vector<false>(y, q_y, x, M());
+        const M counted = hn::MaskFromVec(hn::LoadU(D(), first_partner + x));
+        vector<true>(rows, y, q_y, x, hn::And(counted, range(x, from, end)));
+      } else if (x == from && x + lanes <= end) {
+        vector<false>(rows, y, q_y, x, M());
       } else {
-        vector<true>(y, q_y, x, and_range(x, from, end, hn::FirstN(D(), static_cast<std::size_t>(lanes))));
+        vector<true>(rows, y, q_y, x, range(x, from, end));
       }
       from = x + lanes;
     }
@@ -138,13 +160,28 @@ class RowSweeper {
   }
 
  private:
-  static Lane byte_pair(int x, int y) { return static_cast<Lane>((x & 255) | (y & 255) << 8); }
+  static V8 byte_pairs(int x, int y) {
+    return hn::BitCast(D8(), hn::Set(D(), static_cast<Lane>((x & 255) | (y & 255) << 8)));
+  }
 
-  static M and_range(int x, int from, int end, M mask) {
+  /// Of the columns from x, those in from..end - 1.
+  static M range(int x, int from, int end) {
     const D d;
-    const auto column = hn::Add(hn::Iota(d, Lane{0}), hn::Set(d, static_cast<Lane>(x)));
-    return hn::And(mask, hn::And(hn::Not(hn::Gt(hn::Set(d, static_cast<Lane>(from)), column)),
-                                 hn::Gt(hn::Set(d, static_cast<Lane>(end)), column)));
+    const auto lanes = static_cast<int>(hn::Lanes(d));
+    return hn::AndNot(hn::FirstN(d, static_cast<std::size_t>(from - x)),
+                      hn::FirstN(d, static_cast<std::size_t>(std::min(end - x, lanes))));
+  }
+
+  /// Where the first partners' and the second ones' lanes of column 0 lie, for one channel.
+  struct Rows {
+    Lane *bytes_p, *bytes_q, *level_p, *level_q;
+    const Lane *landing_p, *landing_q;
+  };
+  Rows rows_of(int y, int q_y, std::size_t c) const {
+    const int s_x = sweep_.s.x;
+    return {state_.row(state_.bytes, y),      state_.row(state_.bytes, q_y) + s_x,
+            state_.row(state_.level[c], y),   state_.row(state_.level[c], q_y) + s_x,
+            state_.row(state_.landing[c], y), state_.row(state_.landing[c], q_y) + s_x};
   }
 
   template <class Body>
@@ -153,27 +190,23 @@ class RowSweeper {
     body(state_.row(state_.bytes, y));
   }
 
-  V8 moved(V bytes, Lane by) const {
-    const D8 d8;
-    const D d;
-    V8 sum = hn::Add(hn::BitCast(d8, bytes), hn::BitCast(d8, hn::Set(d, by)));
-    if (periodic_) sum = hn::Min(sum, hn::Sub(sum, hn::BitCast(d8, hn::Set(d, period_))));
+  HWY_INLINE V8 moved(V bytes, V8 by) const {
+    V8 sum = hn::Add(hn::BitCast(D8(), bytes), by);
+    if (periodic_) sum = hn::Min(sum, hn::Sub(sum, period_));
     return sum;
   }
 
-  M within(V8 a, V8 b) const {
-    const D8 d8;
+  HWY_INLINE M within(V8 a, V8 b) const {
     const D d;
-    if (!state_.reach.euclidean) {
-      const auto limit = hn::BitCast(d8, hn::Set(d, limit_));
-      return hn::Eq(hn::BitCast(d, hn::Or(hn::SaturatedSub(a, limit), hn::SaturatedSub(b, limit))),
+    if (!euclidean_) {
+      return hn::Eq(hn::BitCast(d, hn::Or(hn::SaturatedSub(a, limit_), hn::SaturatedSub(b, limit_))),
                     hn::Zero(d));
     }
     const auto outside = [&](V8 bytes) {
-      const auto least = hn::Min(bytes, hn::Sub(hn::BitCast(d8, hn::Set(d, period_)), bytes));
-      const V x = hn::And(hn::BitCast(d, least), hn::Set(d, Lane{255}));
-      const V y = hn::ShiftRight<8>(hn::BitCast(d, least));
-      return hn::Gt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Set(d, limit_));
+      const V least = hn::BitCast(d, hn::Min(bytes, hn::Sub(period_, bytes)));
+      const V x = hn::And(least, hn::Set(d, Lane{255}));
+      const V y = hn::ShiftRight<8>(least);
+      return hn::Gt(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::BitCast(d, limit_));
     };
     return hn::Not(hn::Or(outside(a), outside(b)));
   }
@@ -188,13 +221,10 @@ class RowSweeper {
     }
   }
 
-  HWY_INLINE V channel_change(std::size_t c, int y, int q_y, int x) const {
+  HWY_INLINE V channel_change(const Rows& rows, int x) const {
     const D d;
-    const int q_x = x + sweep_.s.x;
-    return pair_change(hn::LoadU(d, state_.row(state_.level[c], y) + x),
-                       hn::LoadU(d, state_.row(state_.level[c], q_y) + q_x),
-                       hn::LoadU(d, state_.row(state_.landing[c], y) + x),
-                       hn::LoadU(d, state_.row(state_.landing[c], q_y) + q_x));
+    return pair_change(hn::LoadU(d, rows.level_p + x), hn::LoadU(d, rows.level_q + x),
+                       hn::LoadU(d, rows.landing_p + x), hn::LoadU(d, rows.landing_q + x));
   }
 
   HWY_INLINE V thresholds(int x, int y) const {
@@ -203,47 +233,38 @@ class RowSweeper {
     const std::uint32_t base =
         static_cast<std::uint32_t>(y) * (static_cast<std::uint32_t>(state_.width + 1) / 2) +
         static_cast<std::uint32_t>(x) / 2;
-    if constexpr (kNarrow) {
-      const auto index = hn::Mul(hn::Iota(du, base), hn::Set(du, kGolden));
-      const auto even = hn::Set(du, sweep_.key_even), odd = hn::Set(du, sweep_.key_odd);
-      const auto low =
-          threshold_lanes(du, mix_lanes(du, hn::Add(index, even), odd), sweep_.temperature, kCap);
-      const auto high =
-          threshold_lanes(du, mix_lanes(du, hn::Add(index, odd), even), sweep_.temperature, kCap);
-      return hn::BitCast(d, hn::Or(low, hn::ShiftLeft<16>(high)));
+    // (base + i) * kGolden, the product of i made once.
+    const auto index = hn::Add(hn::Set(du, base * kGolden), index_);
+    const auto low = threshold_lanes(du, mix_lanes(du, hn::Add(index, key_), other_key_), temperature_, kCap);
+    if constexpr (!kNarrow) {
+      return low;
     } else {
-      const auto lane = hn::Iota(du, 0u);
-      const auto index = hn::Mul(hn::Add(hn::ShiftRight<1>(lane), hn::Set(du, base)), hn::Set(du, kGolden));
-      const auto is_odd = hn::Ne(hn::And(lane, hn::Set(du, 1u)), hn::Zero(du));
-      const auto even = hn::Set(du, sweep_.key_even), odd = hn::Set(du, sweep_.key_odd);
-      const auto bits =
-          mix_lanes(du, hn::Add(index, hn::IfThenElse(is_odd, odd, even)), hn::IfThenElse(is_odd, even, odd));
-      return threshold_lanes(du, bits, sweep_.temperature, kCap);
+      const auto high =
+          threshold_lanes(du, mix_lanes(du, hn::Add(index, other_key_), key_), temperature_, kCap);
+      return hn::BitCast(d, hn::Or(low, hn::ShiftLeft<16>(high)));
     }
   }
 
   /// The pairs of one vector; of them only `counted` if kMasked.
   template <bool kMasked>
-  HWY_INLINE void vector(int y, int q_y, int x, M counted) {
+  HWY_INLINE void vector(const Rows& rows, int y, int q_y, int x, M counted) {
     const D d;
-    const int q_x = x + sweep_.s.x;
-    Lane* bytes_p = state_.row(state_.bytes, y) + x;
-    Lane* bytes_q = state_.row(state_.bytes, q_y) + q_x;
-    const V p = hn::LoadU(d, bytes_p), q = hn::LoadU(d, bytes_q);
+    const V p = hn::LoadU(d, rows.bytes_p + x), q = hn::LoadU(d, rows.bytes_q + x);
     const V8 to_q = moved(p, plus_), to_p = moved(q, minus_);
     M open = within(to_q, to_p);
     if constexpr (kMasked) open = hn::And(open, counted);
 
-    V change = channel_change(0, y, q_y, x);
+    V change = channel_change(rows, x);
     if constexpr (!kSingle) {
       change = hn::Mul(change, hn::Set(d, state_.weight[0]));
       for (std::size_t c = 1; c < state_.level.size(); ++c) {
-        change = hn::Add(change, hn::Mul(channel_change(c, y, q_y, x), hn::Set(d, state_.weight[c])));
+        change =
+            hn::Add(change, hn::Mul(channel_change(rows_of(y, q_y, c), x), hn::Set(d, state_.weight[c])));
       }
     }
-    open = hn::And(open, hn::Not(hn::Gt(change, hn::Set(d, most_))));
+    open = hn::AndNot(hn::Gt(change, most_), open);
     if (hn::AllFalse(d, open)) return;
-    const M taken = hn::And(open, hn::Not(hn::Gt(change, thresholds(x, y))));
+    const M taken = hn::AndNot(hn::Gt(change, thresholds(x, y)), open);
     if (hn::AllFalse(d, taken)) return;
 
     dirty_ = true;
@@ -252,12 +273,11 @@ class RowSweeper {
       // Both may lie in one row: read again what the first store may have changed.
       hn::StoreU(hn::IfThenElse(taken, new_q, hn::LoadU(d, at_q)), d, at_q);
     };
-    swap_lanes(bytes_p, bytes_q, hn::BitCast(d, to_p), hn::BitCast(d, to_q), p);
+    swap_lanes(rows.bytes_p + x, rows.bytes_q + x, hn::BitCast(d, to_p), hn::BitCast(d, to_q), p);
     for (std::size_t c = 0; c < (kSingle ? 1 : state_.level.size()); ++c) {
-      Lane* at_p = state_.row(state_.level[c], y) + x;
-      Lane* at_q = state_.row(state_.level[c], q_y) + q_x;
-      const V v_p = hn::LoadU(d, at_p), v_q = hn::LoadU(d, at_q);
-      swap_lanes(at_p, at_q, v_q, v_p, v_p);
+      const Rows channel = kSingle ? rows : rows_of(y, q_y, c);
+      const V v_p = hn::LoadU(d, channel.level_p + x), v_q = hn::LoadU(d, channel.level_q + x);
+      swap_lanes(channel.level_p + x, channel.level_q + x, v_q, v_p, v_p);
     }
     accepted_ += static_cast<std::int64_t>(hn::CountTrue(d, taken));
     changed_ += static_cast<std::int64_t>(hn::CountTrue(d, hn::And(taken, hn::Ne(change, hn::Zero(d)))));
@@ -282,8 +302,11 @@ class RowSweeper {
 
   SweepState<Lane>& state_;
   const Sweep& sweep_;
-  Lane plus_, minus_, period_, limit_, most_;
-  bool periodic_;
+  V8 plus_, minus_, period_, limit_;
+  V most_;
+  hn::Vec<DU32> index_, key_, other_key_;
+  hn::Vec<DF> temperature_;
+  bool periodic_, euclidean_;
   bool dirty_ = false;
   std::int64_t accepted_ = 0, changed_ = 0, change_ = 0;
 };
