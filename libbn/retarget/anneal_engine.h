@@ -26,10 +26,12 @@ struct RoundCounts {
 /// Swaps within reach that would raise the energy, by the size of the rise: class i holds rises of
 /// 2^i .. 2^(i+1) - 1, the last one all larger ones too.
 struct WorseningCounts {
+  int sweeps = 1 << 30;  ///< how many of a round's last sweeps are watched
   std::array<std::int64_t, kWorseningClasses> tried{};
   std::array<std::int64_t, kWorseningClasses> accepted{};
   std::int64_t within_reach = 0;  ///< proposals that the reach allows, worsening or not
   void count(std::int64_t change, bool taken);
+  WorseningCounts& operator+=(const WorseningCounts& other);
 };
 
 /// A chain. What round number `round` draws depends on (seed, chain, round) only.
@@ -37,13 +39,17 @@ class AnnealEngine {
  public:
   virtual ~AnnealEngine() = default;
 
-  /// `sweeps` sweeps at one temperature. Counts worsenings where asked; that is slower and changes nothing.
+  /// `sweeps` sweeps at one temperature. Counts worsenings where asked; watched sweeps are slower, nothing
+  /// else changes.
   virtual RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution& execution,
                             WorseningCounts* worsenings = nullptr) = 0;
   /// The running energy: kept by adding changes, always equal to the recomputed one.
   virtual std::int64_t energy() const = 0;
   /// The displacement k of the seed at each position.
   virtual Grid<Offset> displacements() const = 0;
+  /// Remembers the placement of now, in place of the one before; kept() gives it back.
+  virtual void keep() = 0;
+  virtual Grid<Offset> kept() const = 0;
   /// Continues from there: a valid placement, as displacements() gives.
   virtual void place(const Grid<Offset>& displacement_at) = 0;
 };

@@ -1,14 +1,488 @@
+// The run of an annealing: chains advance in beats; between beats they meet, exchange places, write the trace
+// and take checkpoints. One driver serves one chain, independent restarts and parallel tempering.
+//
+// A beat is a number of rounds that depends on the problem and the budget alone, a round some sweeps at one
+// temperature. Whatever threads, clocks and readers do, the same rounds happen in the same order per chain.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/progress.h"
+#include "core/reproducible_math.h"
+#include "retarget/anneal_checkpoint.h"
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Stream of random numbers for exchanges between chains.
+constexpr std::uint32_t kExchangeStream = 0x5D000000u;
+/// The share of the budget spent at temperature 0 at the end.
+constexpr std::int64_t kQuenchShare = 64;
+constexpr std::int64_t kTracePoints = 512;
+/// A watched sweep takes some 30 times as long as another; one in this many stays below a hundredth.
+constexpr std::int64_t kSweepsPerWatchedOne = 4096;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+[[noreturn]] void refuse(std::string_view where, std::string what, std::string limit,
+                         std::string remedy = "") {
+  throw Error({.code = ErrorCode::invalid_input,
+               .what = std::move(what),
+               .where = std::string(where),
+               .limit = std::move(limit),
+               .remedy = std::move(remedy)});
+}
+
+/// What needs no instance to be checked.
+void check(const AnnealOptions& options) {
+  const bool tempering = options.chains.coupling == ChainOptions::Coupling::tempering;
+  constexpr int kMaxChains = 256;
+  const int least = tempering ? 2 : 1;
+  if (options.chains.count < least || options.chains.count > kMaxChains) {
+    refuse("chains", fmt::format("{}", options.chains.count), fmt::format("{}..{}", least, kMaxChains));
+  }
+  if (options.proposals < 1 || options.proposals > (std::int64_t{1} << 62)) {
+    refuse("budget", fmt::format("{} proposals", options.proposals), "1..2^62 proposals");
+  }
+  if (options.start.rule == StartTemperature::Rule::acceptance &&
+      !(options.start.value >= 0.001 && options.start.value <= 0.999)) {
+    refuse("initial acceptance", fmt::format("{}", options.start.value), "0.001..0.999");
+  }
+  if (options.start.rule == StartTemperature::Rule::given &&
+      !(options.start.value > 0.0 && std::isfinite(options.start.value))) {
+    refuse("start temperature", fmt::format("{}", options.start.value), "above 0, finite");
+  }
+  if (!(options.end_temperature >= 0.0 && std::isfinite(options.end_temperature))) {
+    refuse("end temperature", fmt::format("{}", options.end_temperature),
+           "above 0, at most the start; 0 for automatic");
+  }
+  if (!(options.checkpoint.interval_s >= 0.01 && options.checkpoint.interval_s <= 3600.0)) {
+    refuse("checkpoint interval", fmt::format("{} s", options.checkpoint.interval_s), "0.01..3600 s");
+  }
+  if (options.custom) {
+    check_schedule(*options.custom);
+    if (tempering)
+      refuse("schedule", "a custom one with tempering", "tempering keeps each chain's temperature");
+  } else {
+    make_schedule(options.schedule, 1.0, 1.0, 1);  // for the name's sake
+  }
+}
+
+/// The share of worsening swaps within reach that is accepted at `temperature` in a sweep from the identity.
+double acceptance_at(const AnnealInstance& instance, double temperature) {
+  const auto engine = make_engine(instance, 1, 0);
+  WorseningCounts counts;
+  // Small tiles need more than one sweep for a sample worth its name.
+  const auto sweeps = static_cast<int>(std::clamp<std::int64_t>(8192 / instance.size.area(), 1, 64));
+  engine->round(0, sweeps, temperature, {.threads = 1}, &counts);
+  std::int64_t tried = 0, accepted = 0;
+  for (std::size_t i = 0; i < counts.tried.size(); ++i) {
+    tried += counts.tried[i];
+    accepted += counts.accepted[i];
+  }
+  return tried == 0 ? 1.0 : static_cast<double>(accepted) / static_cast<double>(tried);
+}
+
+/// By bisection of the exponent; square roots and products of IEEE give the same bits everywhere.
+double temperature_for_acceptance(const AnnealInstance& instance, double wanted) {
+  double low = 0x1p-10, high = 0x1p62;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    (acceptance_at(instance, middle) < wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+/// The mean over pixels (at most 1024 of them, evenly spread) of the least cost a seed could have there.
+double mean_least_cost(const AnnealInstance& instance) {
+  const auto window = reach_rows(instance.size, instance.options);
+  const auto [width, height] = instance.size;
+  const std::int64_t pixels = instance.size.area(), samples = std::min<std::int64_t>(pixels, 1024);
+  std::int64_t sum = 0;
+  for (std::int64_t i = 0; i < samples; ++i) {
+    const std::int64_t w = pixels * i / samples;
+    std::int64_t least = kMaxAnnealEnergy;
+    for (const ReachRow& row : window) {
+      for (int x = row.x_low; x <= row.x_high; ++x) {
+        std::int64_t cost = 0;
+        for (std::size_t c = 0; c < instance.weight.size(); ++c) {
+          cost += instance.weight[c] *
+                  level_cost(instance.seed_level[c].torus(w % width - x, w / width - row.y),
+                             instance.landing_level[c][static_cast<std::size_t>(w)], instance.options.metric);
+        }
+        least = std::min(least, cost);
+      }
+    }
+    sum += least;
+  }
+  return std::max(0.5, static_cast<double>(sum) / static_cast<double>(samples));
+}
+
+TemperatureRange automatic_range(const AnnealInstance& instance) {
+  if (instance.residual_sigma_px > 0.0) {
+    const double start = temperature_for_acceptance(instance, 0.2);
+    return {start, start / 4000.0};
+  }
+  const double scale = mean_least_cost(instance);
+  return {6.0 * scale, 0.9 * scale};
+}
+
+TemperatureRange temperatures_of(const AnnealInstance& instance, const AnnealOptions& options) {
+  using Rule = StartTemperature::Rule;
+  const bool automatic_start = options.start.rule == Rule::automatic,
+             automatic_end = options.end_temperature == 0.0;
+  TemperatureRange range;
+  if (automatic_start || automatic_end) range = automatic_range(instance);
+  if (options.start.rule == Rule::given) range.start = options.start.value;
+  if (options.start.rule == Rule::acceptance)
+    range.start = temperature_for_acceptance(instance, options.start.value);
+  if (options.start.rule == Rule::everything) {
+    if (instance.residual_sigma_px > 0.0) {
+      refuse("start temperature", "accept everything with a filtered residual",
+             "automatic, given or an acceptance");
+    }
+    // A swap changes two costs.
+    range.start = static_cast<double>(std::max<std::int64_t>(1, instance.largest_change));
+  }
+  if (!automatic_end) range.end = options.end_temperature;
+  if (range.end > range.start) {
+    if (automatic_end) {
+      range.end = range.start;
+    } else if (automatic_start) {
+      range.start = range.end;
+    } else {
+      refuse("end temperature", fmt::format("{}", range.end),
+             fmt::format("at most {}, the start temperature", range.start));
+    }
+  }
+  return range;
+}
+
+/// One chain and how far it is.
+struct Chain {
+  std::unique_ptr<AnnealEngine> engine;
+  Cooling cooling;
+  std::int64_t round = 0;
+  std::int64_t proposals = 0;
+  std::int64_t accepted = 0;
+  std::int64_t best_energy = 0;
+  WorseningCounts watched = {};
+  bool watch = false;
+
+  bool done(std::int64_t budget) const { return proposals >= budget || cooling.frozen(); }
+};
+
+class Run {
+ public:
+  Run(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution,
+      AnnealTrace* trace)
+      : options_(options),
+        execution_(execution),
+        trace_(trace),
+        instance_(problem, options.swap_distance_px),
+        fingerprint_(fingerprint_of(problem, options)) {
+    const auto chains = static_cast<std::uint64_t>(options.chains.count);
+    check_memory(
+        execution,
+        chains * static_cast<std::uint64_t>(instance_.size.area()) * (24 + 16 * instance_.weight.size()),
+        "annealing");
+    temperatures_ = temperatures_of(instance_, options);
+    const std::int64_t quench = options.proposals / kQuenchShare;
+    cooled_ = options.proposals - quench;
+    const std::int64_t sweep = std::max<std::int64_t>(1, instance_.size.area() / 2);
+    sweeps_ = static_cast<int>(std::clamp<std::int64_t>(options.proposals / (4096 * sweep), 1, 64));
+    // Short enough to stop, to save and to exchange in time; a residual's swaps are slow.
+    const bool residual = instance_.residual_sigma_px > 0.0;
+    const std::int64_t longest = residual ? 200'000 : tempering() ? 400'000 : 100'000'000;
+    // Long enough to be worth waking other threads.
+    const std::int64_t shortest = options.chains.count == 1 ? 1 : residual ? 2'000 : 200'000;
+    beat_ = std::clamp<std::int64_t>(options.proposals / kTracePoints, shortest, longest);
+
+    for (int c = 0; c < options.chains.count; ++c) {
+      Chain& chain = chains_.emplace_back(
+          Chain{make_engine(instance_, options.seed, static_cast<std::uint32_t>(c)), Cooling(schedule(c))});
+      chain.best_energy = chain.engine->energy();
+      chain.engine->keep();
+    }
+    start_energy_ = chains_.front().engine->energy();
+    if (!options.checkpoint.resume.empty()) resume();
+  }
+
+  AnnealResult run() {
+    const auto start = Clock::now();
+    auto saved = start;
+    double save_cost_s = 0.0;
+    ProgressMeter progress(execution_, static_cast<std::uint64_t>(options_.proposals));
+    std::uint64_t reported = 0;
+    trace_point(start);
+    while (!done()) {
+      if (execution_.stop.stop_requested()) {
+        save();
+        throw_if_stopped(execution_);
+      }
+      const double interval = std::max(options_.checkpoint.interval_s, std::min(28.0, 50.0 * save_cost_s));
+      if (options_.checkpoint.save && seconds_since(saved) >= interval) {
+        const auto before = Clock::now();
+        save();
+        save_cost_s = seconds_since(before);
+        saved = Clock::now();
+      }
+      beat();
+      trace_point(start);
+      const auto made = static_cast<std::uint64_t>(std::min(chains_.front().proposals, options_.proposals));
+      progress.advance(made - reported);
+      reported = made;
+    }
+    progress.finish();
+    return result();
+  }
+
+ private:
+  bool tempering() const { return options_.chains.coupling == ChainOptions::Coupling::tempering; }
+  bool done() const {
+    return instance_.displacements.empty() ||
+           std::all_of(chains_.begin(), chains_.end(),
+                       [&](const Chain& c) { return c.done(options_.proposals); });
+  }
+
+  /// Of chain c; chains of tempering hold the temperature of their place on the ladder.
+  CoolingSchedule schedule(int c) const {
+    if (tempering()) return ConstantCooling{ladder(c)};
+    if (options_.custom) return *options_.custom;
+    return make_schedule(options_.schedule, temperatures_.start, temperatures_.end, cooled_);
+  }
+  /// Geometric, chain 0 the coldest.
+  double ladder(int place) const {
+    const double share = static_cast<double>(place) / (options_.chains.count - 1);
+    return temperatures_.end *
+           reproducible_exp(share * reproducible_log(temperatures_.start / temperatures_.end));
+  }
+
+  void beat() {
+    for (Chain& chain : chains_) {
+      chain.watch = trace_ != nullptr && &chain == &chains_.front() &&
+                    sweeps_done() - last_watched_ >= kSweepsPerWatchedOne;
+    }
+    if (chains_.front().watch) last_watched_ = sweeps_done();
+    const Execution inside{.threads = chains_.size() == 1 ? execution_.threads : 1};
+    parallel_for({.threads = execution_.threads}, static_cast<std::int64_t>(chains_.size()),
+                 [&](std::int64_t c) { advance(chains_[static_cast<std::size_t>(c)], inside); });
+    if (tempering()) exchange();
+    ++beats_;
+  }
+
+  std::int64_t sweeps_done() const { return chains_.front().round * sweeps_; }
+
+  void advance(Chain& chain, const Execution& inside) {
+    const std::int64_t target = std::min(options_.proposals, chain.proposals + beat_);
+    chain.watched = {.sweeps = 1};
+    while (chain.proposals < target && !chain.done(options_.proposals)) {
+      const bool quench = chain.proposals >= cooled_;
+      const double temperature = quench ? 0.0 : chain.cooling.temperature();
+      WorseningCounts* worsenings = std::exchange(chain.watch, false) ? &chain.watched : nullptr;
+      const RoundCounts counts = chain.engine->round(chain.round, sweeps_, temperature, inside, worsenings);
+      ++chain.round;
+      chain.proposals += counts.proposals;
+      chain.accepted += counts.accepted;
+      if (!quench) chain.cooling.advance(counts.proposals, counts.accepted, counts.changed);
+      if (chain.engine->energy() >= chain.best_energy) continue;
+      chain.best_energy = chain.engine->energy();
+      chain.engine->keep();
+    }
+  }
+
+  /// Neighbours on the ladder exchange places with Metropolis' chance: even pairs in even beats, odd ones in
+  /// odd beats. The placements move, the engines stay, so that their random numbers do.
+  void exchange() {
+    for (std::size_t c = static_cast<std::size_t>(beats_ & 1); c + 1 < chains_.size(); c += 2) {
+      Chain &cold = chains_[c], &hot = chains_[c + 1];
+      const double gain = static_cast<double>(cold.engine->energy() - hot.engine->energy());
+      const double exponent =
+          gain * (1.0 / ladder(static_cast<int>(c)) - 1.0 / ladder(static_cast<int>(c) + 1));
+      const auto bits = random_bits(options_.seed, kExchangeStream + static_cast<std::uint32_t>(c),
+                                    static_cast<std::uint64_t>(beats_)) >>
+                        11;
+      const double u = (static_cast<double>(bits) + 0.5) * 0x1p-53;
+      if (exponent < 0.0 && u >= reproducible_exp(exponent)) continue;
+      const auto was_cold = cold.engine->displacements();
+      cold.engine->place(hot.engine->displacements());
+      hot.engine->place(was_cold);
+    }
+  }
+
+  std::int64_t best_energy() const {
+    std::int64_t best = chains_.front().best_energy;
+    for (const Chain& chain : chains_) best = std::min(best, chain.best_energy);
+    return best;
+  }
+
+  void trace_point(Clock::time_point start) {
+    if (trace_ == nullptr) return;
+    const Chain& chain = chains_.front();
+    const auto notch = static_cast<std::int64_t>(static_cast<double>(chain.proposals) /
+                                                 static_cast<double>(options_.proposals) * kTracePoints);
+    if (notch == last_notch_) return;
+    last_notch_ = notch;
+    const std::int64_t made = chain.proposals - traced_proposals_,
+                       accepted = chain.accepted - traced_accepted_;
+    traced_proposals_ = chain.proposals;
+    traced_accepted_ = chain.accepted;
+    trace_->add(
+        {.proposals = chain.proposals,
+         .seconds = seconds_since(start),
+         .temperature = chain.proposals >= cooled_ ? 0.0 : chain.cooling.temperature(),
+         .energy = chain.engine->energy(),
+         .best_energy = best_energy(),
+         .accepted_share = made == 0 ? 0.0 : static_cast<double>(accepted) / static_cast<double>(made),
+         .worsening_tried = chain.watched.tried,
+         .worsening_accepted = chain.watched.accepted});
+  }
+
+  void save() const {
+    if (!options_.checkpoint.save) return;
+    RunRecord record{.beats = beats_, .chains = {}};
+    for (const Chain& chain : chains_) {
+      record.chains.push_back({.cooling = chain.cooling.progress(),
+                               .round = chain.round,
+                               .proposals = chain.proposals,
+                               .accepted = chain.accepted,
+                               .best_energy = chain.best_energy,
+                               .now = chain.engine->displacements(),
+                               .best = chain.engine->kept()});
+    }
+    options_.checkpoint.save(encode_checkpoint(fingerprint_, record));
+  }
+
+  void resume() {
+    const RunRecord record =
+        decode_checkpoint(options_.checkpoint.resume, fingerprint_, chains_.size(), instance_);
+    beats_ = record.beats;
+    for (std::size_t c = 0; c < chains_.size(); ++c) {
+      const ChainRecord& from = record.chains[c];
+      Chain& chain = chains_[c];
+      chain.engine->place(from.best);
+      chain.engine->keep();
+      chain.best_energy = chain.engine->energy();
+      chain.engine->place(from.now);
+      chain.cooling.resume(from.cooling);
+      chain.round = from.round;
+      chain.proposals = from.proposals;
+      chain.accepted = from.accepted;
+    }
+  }
+
+  AnnealResult result() const {
+    const Chain* best = &chains_.front();
+    AnnealResult result;
+    for (const Chain& chain : chains_) {
+      if (chain.best_energy < best->best_energy) best = &chain;
+      result.proposals += chain.proposals;
+      result.accepted += chain.accepted;
+      result.frozen = result.frozen || chain.cooling.frozen();
+    }
+    result.tile.move = instance_.moves_of(best->engine->kept());
+    check_permutation(result.tile.move, instance_.options);
+    result.tile.start_energy = start_energy_;
+    result.tile.energy = best->best_energy;
+    result.tile.lower_bound = options_.lower_bound;
+    result.start_temperature = temperatures_.start;
+    result.end_temperature = temperatures_.end;
+    return result;
+  }
+
+  const AnnealOptions& options_;
+  const Execution& execution_;
+  AnnealTrace* trace_;
+  AnnealInstance instance_;
+  std::uint64_t fingerprint_;
+  TemperatureRange temperatures_;
+  std::int64_t cooled_ = 0;  ///< proposals before the last ones at temperature 0
+  int sweeps_ = 1;           ///< of a round
+  std::int64_t beat_ = 1;    ///< proposals of a beat
+  std::vector<Chain> chains_;
+  std::int64_t start_energy_ = 0;
+  std::int64_t beats_ = 0;
+  std::int64_t last_watched_ = 0, last_notch_ = -1, traced_proposals_ = 0, traced_accepted_ = 0;
+};
+
+}  // namespace
 
 std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move) {
   const AnnealInstance instance(problem, 0);
+  if (move.size() != instance.size)
+    refuse("move", "a tile of another size than the levels", "both of one size");
   check_permutation(move, problem.retarget);
   // Engines compute the energy of a placement afresh.
   const auto engine = make_engine(instance, 0, 0);
   engine->place(instance.displacements_of(move));
   return engine->energy();
+}
+
+AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& options,
+                             const Execution& execution, AnnealTrace* trace) {
+  check(options);
+  thread_count(execution);
+  return Run(problem, options, execution, trace).run();
+}
+
+std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const AnnealOptions& options,
+                                            int range, const Execution& execution) {
+  constexpr int kMaxRange = 8;
+  if (range < 0 || range > kMaxRange)
+    refuse("motion range", fmt::format("{}", range), fmt::format("0..{}", kMaxRange));
+  check(options);
+  const int side = 2 * range + 1;
+  std::vector<AnnealResult> results(static_cast<std::size_t>(side * side));
+  ProgressMeter progress(execution, results.size());
+  parallel_for(execution, static_cast<std::int64_t>(results.size()), [&](std::int64_t i) {
+    AnnealProblem variant = problem;
+    variant.retarget.motion = {static_cast<int>(i) % side - range, static_cast<int>(i) / side - range};
+    AnnealOptions alone = options;
+    alone.chains = {};
+    alone.checkpoint = {};
+    const Execution inside{
+        .threads = 1, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
+    results[static_cast<std::size_t>(i)] = anneal_retarget(variant, alone, inside);
+    progress.advance(1);
+  });
+  progress.finish();
+  return results;
+}
+
+TemperatureRange automatic_temperatures(const AnnealProblem& problem) {
+  return automatic_range(AnnealInstance(problem, 0));
+}
+
+std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const AnnealOptions& options,
+                           const Execution& execution) {
+  if (!(seconds > 0.0 && seconds <= 1e6))
+    refuse("budget", fmt::format("{} s", seconds), "above 0, at most 1e6 s");
+  AnnealOptions trial = options;
+  trial.checkpoint = {};
+  const Execution inside{.threads = execution.threads,
+                         .stop = execution.stop,
+                         .memory_limit_bytes = execution.memory_limit_bytes};
+  trial.proposals = 1 << 14;
+  while (true) {
+    const auto start = Clock::now();
+    anneal_retarget(problem, trial, inside);
+    const double took = std::max(1e-6, seconds_since(start));
+    constexpr std::int64_t kMost = std::int64_t{1} << 50;
+    if (took >= seconds / 40.0 || trial.proposals >= kMost) {
+      return std::max<std::int64_t>(
+          1, static_cast<std::int64_t>(static_cast<double>(trial.proposals) * (seconds / took)));
+    }
+    // Four times as long next, or what just reaches a fortieth.
+    trial.proposals *= static_cast<std::int64_t>(std::clamp(seconds / 40.0 / took, 2.0, 8.0));
+  }
 }
 
 }  // namespace bn

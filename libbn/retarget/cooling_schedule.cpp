@@ -62,6 +62,11 @@ struct Check {
       refuse("accepted swaps a stage", fmt::format("{}", s.accepted_per_stage), "at least 1");
     if (s.tried_per_stage < 1)
       refuse("tried swaps a stage", fmt::format("{}", s.tried_per_stage), "at least 1");
+    if (s.stages > 0 && s.tried_per_stage > (std::int64_t{1} << 62) / s.stages) {
+      refuse("tried swaps a stage", fmt::format("{} in {} stages", s.tried_per_stage, s.stages),
+             "2^62 in all");
+    }
+    if (s.stages < 0 || s.stages > 1'000'000) refuse("stages", fmt::format("{}", s.stages), "0..1000000");
     if (s.frozen_stages < 1) refuse("frozen stages", fmt::format("{}", s.frozen_stages), "at least 1");
   }
 };
@@ -97,8 +102,7 @@ std::string_view name_of(const CoolingSchedule& schedule) { return std::visit(Na
 
 void check_schedule(const CoolingSchedule& schedule) { std::visit(Check{}, schedule); }
 
-CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals,
-                              std::int64_t pixels) {
+CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals) {
   const auto names = schedule_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     refuse("schedule", fmt::format("unknown schedule '{}'", name), fmt::format("{}", fmt::join(names, ", ")));
@@ -114,7 +118,6 @@ CoolingSchedule make_schedule(std::string_view name, double start, double end, s
   if (proposals < 1 || proposals > (std::int64_t{1} << 62)) {
     refuse("budget", fmt::format("{} proposals", proposals), "1..2^62 proposals");
   }
-  if (pixels < 1) refuse("pixels", fmt::format("{}", pixels), "at least 1");
 
   const auto steps = static_cast<double>(proposals);
   if (name == "exponential")
@@ -125,16 +128,17 @@ CoolingSchedule make_schedule(std::string_view name, double start, double end, s
   if (name == "constant") return ConstantCooling{end};
   if (name == "greedy") return GreedyCooling{};
   constexpr int kStages = 100;
-  constexpr double kAcceptedPerPixel = 1.5;
-  const double accepted = kAcceptedPerPixel * static_cast<double>(pixels);
-  return KirkpatrickCooling{
-      .start = start,
-      // A run that does not cool at all still needs a factor below 1.
-      .factor = std::min(reproducible_exp(reproducible_log(end / start) / kStages), 1.0 - 0x1p-40),
-      .accepted_per_stage = static_cast<std::int64_t>(accepted) + 1,
-      .tried_per_stage = std::max<std::int64_t>(1, proposals / kStages),
-      .frozen_stages = 3,
-      .end = end};
+  const std::int64_t share = std::max<std::int64_t>(1, proposals / kStages);
+  // A run that does not cool at all still needs a factor below 1.
+  const double factor =
+      std::min(reproducible_exp(reproducible_log(end / start) / (kStages - 1)), 1.0 - 0x1p-40);
+  return KirkpatrickCooling{.start = start,
+                            .factor = factor,
+                            .accepted_per_stage = share / 500 + 1,
+                            .tried_per_stage = share,
+                            .frozen_stages = 3,
+                            .end = end,
+                            .stages = kStages};
 }
 
 Cooling::Cooling(const CoolingSchedule& schedule) : schedule_(schedule) { check_schedule(schedule_); }
@@ -158,7 +162,13 @@ void Cooling::advance(std::int64_t proposals, std::int64_t accepted, std::int64_
   progress_.tried += proposals;
   progress_.accepted += accepted;
   progress_.changed += changed;
-  if (progress_.accepted < stages->accepted_per_stage && progress_.tried < stages->tried_per_stage) return;
+  std::int64_t cap = stages->tried_per_stage;
+  if (stages->stages > 0) {
+    const std::int64_t before = progress_.step - progress_.tried;
+    cap = (stages->tried_per_stage * stages->stages - before) /
+          std::max<std::int64_t>(1, stages->stages - progress_.stage);
+  }
+  if (progress_.accepted < stages->accepted_per_stage && progress_.tried < cap) return;
   progress_.frozen_stages = progress_.changed == 0 ? progress_.frozen_stages + 1 : 0;
   ++progress_.stage;
   progress_.tried = progress_.accepted = progress_.changed = 0;

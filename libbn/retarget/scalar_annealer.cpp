@@ -125,14 +125,14 @@ class ScalarEngine final : public AnnealEngine {
     place(Grid<Offset>(instance.size));
   }
 
-  RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution& execution,
+  RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution&,
                     WorseningCounts* worsenings) override {
     RoundCounts counts;
     if (instance_.displacements.empty()) return counts;
     const float t = single_temperature(temperature);
     const auto pixels = static_cast<std::uint32_t>(instance_.size.area());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
-      throw_if_stopped(execution);
+      const bool watched = worsenings != nullptr && sweep >= sweeps - worsenings->sweeps;
       // A sweep proposes half as many swaps as there are pixels, like a sweep of the other engine.
       const std::uint32_t proposals = std::max(1u, pixels / 2);
       for (std::uint32_t i = 0; i < proposals; ++i) {
@@ -141,7 +141,7 @@ class ScalarEngine final : public AnnealEngine {
                     static_cast<std::uint32_t>(round >> 32) ^ static_cast<std::uint32_t>(sweep) << 24,
                     kScalarStream + chain_, i},
                    {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)});
-        propose(draw, t, counts, worsenings);
+        propose(draw, t, counts, watched ? worsenings : nullptr);
       }
     }
     return counts;
@@ -149,11 +149,9 @@ class ScalarEngine final : public AnnealEngine {
 
   std::int64_t energy() const override { return energy_; }
 
-  Grid<Offset> displacements() const override {
-    Grid<Offset> result(instance_.size);
-    for (std::size_t w = 0; w < origin_.size(); ++w) result[w] = displacement(w, origin_[w]);
-    return result;
-  }
+  Grid<Offset> displacements() const override { return displacements_of(origin_); }
+  void keep() override { kept_ = origin_; }
+  Grid<Offset> kept() const override { return displacements_of(kept_); }
 
   void place(const Grid<Offset>& displacement_at) override {
     const auto [width, height] = instance_.size;
@@ -197,6 +195,12 @@ class ScalarEngine final : public AnnealEngine {
     counts.changed += change != 0;
   }
 
+  Grid<Offset> displacements_of(const std::vector<std::int32_t>& origin) const {
+    Grid<Offset> result(instance_.size);
+    for (std::size_t w = 0; w < origin.size(); ++w) result[w] = displacement(w, origin[w]);
+    return result;
+  }
+
   /// k of a seed from `origin` at position w: the nearest of those that name the same pixel.
   Offset displacement(std::size_t w, std::int32_t origin) const {
     const auto [width, height] = instance_.size;
@@ -210,6 +214,7 @@ class ScalarEngine final : public AnnealEngine {
   std::uint32_t chain_;
   Energy model_;
   std::vector<std::int32_t> origin_;  ///< of the seed at each position
+  std::vector<std::int32_t> kept_;
   std::int64_t energy_ = 0;
 };
 
@@ -222,6 +227,15 @@ void WorseningCounts::count(std::int64_t change, bool taken) {
   const auto i = static_cast<std::size_t>(std::min(log, kWorseningClasses - 1));
   ++tried[i];
   accepted[i] += taken;
+}
+
+WorseningCounts& WorseningCounts::operator+=(const WorseningCounts& other) {
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    tried[i] += other.tried[i];
+    accepted[i] += other.accepted[i];
+  }
+  within_reach += other.within_reach;
+  return *this;
 }
 
 std::unique_ptr<AnnealEngine> make_scalar_engine(const AnnealInstance& instance, std::uint64_t seed,

@@ -3,9 +3,6 @@
 #include "retarget/sweep.h"
 
 #include <algorithm>
-#include <variant>
-
-#include "core/progress.h"
 
 namespace bn {
 namespace {
@@ -142,42 +139,41 @@ class SweepEngine final : public AnnealEngine {
     const float t = single_temperature(temperature);
     const auto bands = bands_of(instance_, seed_, chain_, round);
     std::vector<SweepCounts> results(bands.size());
-    const auto run_band = [&](std::int64_t b) {
-      for (int i = 0; i < sweeps; ++i) {
-        const Sweep sweep = sweep_of(instance_, seed_, chain_, round, i, bands[b], t);
-        if (worsenings != nullptr || kernel_ == nullptr) {
-          sweep_plainly<metric>(state_, instance_, sweep, bands[b], results[b], worsenings);
-        } else {
-          kernel_(state_, instance_, sweep, bands[b], results[b]);
-        }
-      }
-    };
-    if (worsenings != nullptr || bands.size() == 1) {
-      for (std::size_t b = 0; b < bands.size(); ++b) run_band(static_cast<std::int64_t>(b));
-    } else {
-      parallel_for(execution, static_cast<std::int64_t>(bands.size()), run_band);
-    }
+    std::vector<WorseningCounts> watched(bands.size());
+    // Waking threads costs some ten microseconds.
+    constexpr std::int64_t kWorthWaking = 200'000;
+    const bool short_round = instance_.size.area() / 2 * sweeps < kWorthWaking;
+    parallel_for(short_round ? Execution{.threads = 1} : execution, static_cast<std::int64_t>(bands.size()),
+                 [&](std::int64_t b) {
+                   for (int i = 0; i < sweeps; ++i) {
+                     const Sweep sweep = sweep_of(instance_, seed_, chain_, round, i, bands[b], t);
+                     const bool watch = worsenings != nullptr && i >= sweeps - worsenings->sweeps;
+                     if (watch || kernel_ == nullptr) {
+                       sweep_plainly<metric>(state_, instance_, sweep, bands[b], results[b],
+                                             watch ? &watched[b] : nullptr);
+                     } else {
+                       kernel_(state_, instance_, sweep, bands[b], results[b]);
+                     }
+                   }
+                 });
     for (const SweepCounts& result : results) {
       counts += result.counts;
       energy_ += result.change;
     }
-    throw_if_stopped(execution);
+    if (worsenings != nullptr) {
+      for (const WorseningCounts& one : watched) *worsenings += one;
+    }
     return counts;
   }
 
   std::int64_t energy() const override { return energy_; }
 
-  Grid<Offset> displacements() const override {
-    Grid<Offset> result(instance_.size);
-    for (int y = 0; y < state_.height; ++y) {
-      const Lane* bytes = state_.row(state_.bytes, y);
-      for (int x = 0; x < state_.width; ++x) {
-        result(x, y) =
-            state_.reach.offset(static_cast<int>(bytes[x]) & 255, static_cast<int>(bytes[x]) >> 8 & 255);
-      }
-    }
-    return result;
+  Grid<Offset> displacements() const override { return displacements_of(state_.bytes.get()); }
+  void keep() override {
+    const Lane* bytes = state_.bytes.get();
+    kept_.assign(bytes, bytes + state_.stride * static_cast<std::size_t>(state_.height));
   }
+  Grid<Offset> kept() const override { return displacements_of(kept_.data()); }
 
   void place(const Grid<Offset>& displacement_at) override {
     energy_ = 0;
@@ -198,11 +194,24 @@ class SweepEngine final : public AnnealEngine {
   }
 
  private:
+  Grid<Offset> displacements_of(const Lane* bytes) const {
+    Grid<Offset> result(instance_.size);
+    for (int y = 0; y < state_.height; ++y) {
+      for (int x = 0; x < state_.width; ++x) {
+        const auto both = static_cast<int>(
+            bytes[static_cast<std::size_t>(y) * state_.stride + static_cast<std::size_t>(x)]);
+        result(x, y) = state_.reach.offset(both & 255, both >> 8 & 255);
+      }
+    }
+    return result;
+  }
+
   const AnnealInstance& instance_;
   std::uint64_t seed_;
   std::uint32_t chain_;
   Kernel kernel_;
   SweepState<Lane> state_;
+  std::vector<Lane> kept_;
   std::int64_t energy_ = 0;
 };
 

@@ -40,7 +40,7 @@ TEST(Cooling, MadeToCompareTheyMeetStartAndEndAndNeverHeat) {
   constexpr double kStart = 40.0, kEnd = 0.3;
   for (const std::int64_t budget : {std::int64_t{1000}, std::int64_t{1000000000}, std::int64_t{1} << 40}) {
     for (const auto name : schedule_names()) {
-      const auto schedule = make_schedule(name, kStart, kEnd, budget, 4096);
+      const auto schedule = make_schedule(name, kStart, kEnd, budget);
       EXPECT_EQ(name_of(schedule), name);
       if (name == "greedy") continue;
       const double start = name == "constant" ? kEnd
@@ -88,7 +88,7 @@ TEST(Cooling, KirkpatrickFreezesAfterStagesWithoutChange) {
 }
 
 TEST(Cooling, CountsBeyond32Bits) {
-  const auto schedule = make_schedule("exponential", 4.0, 0.25, 10'000'000'000, 4096);
+  const auto schedule = make_schedule("exponential", 4.0, 0.25, 10'000'000'000);
   Cooling cooling(schedule);
   for (int i = 0; i < 10; ++i) cooling.advance(1'000'000'000, 1, 1);
   EXPECT_EQ(cooling.progress().step, 10'000'000'000);
@@ -125,7 +125,7 @@ TEST(Cooling, BadParametersAreNamed) {
   EXPECT_NO_THROW(check_schedule(ConstantCooling{kInfinity}));
 
   const auto make = [](std::string_view name, double start, double end, std::int64_t proposals) {
-    return message_of([&] { make_schedule(name, start, end, proposals, 64); });
+    return message_of([&] { make_schedule(name, start, end, proposals); });
   };
   EXPECT_NE(make("warp", 1.0, 0.5, 10).find("unknown schedule 'warp'"), std::string::npos);
   EXPECT_NE(make("linear", 1.0, 2.0, 10).find("end temperature"), std::string::npos);

@@ -13,7 +13,8 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
+#include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -86,6 +87,9 @@ struct KirkpatrickCooling {
   std::int64_t tried_per_stage = 1;     ///< >= 1
   int frozen_stages = 3;                ///< >= 1
   double end = 0.0;                     ///< >= 0; no stage is colder than this
+  /// > 0: this many stages share tried_per_stage * stages proposals; what an early end saves goes to those
+  /// that follow. 0: each has tried_per_stage for itself.
+  int stages = 0;
   double at_stage(std::int64_t stage) const;
 };
 
@@ -101,13 +105,11 @@ void check_schedule(const CoolingSchedule& schedule);
 
 /// The schedule called `name` that starts at `start`, ends at `end` and spends `proposals`, so that
 /// schedules can be compared. Hajek's has one constant and cannot meet both: c = end * ln(proposals + 2),
-/// so it starts at about 1.44 c whatever `start` is; constant stays at `end`. Kirkpatrick's has 100 stages,
-/// each of at most its share of the proposals or 1.5 accepted swaps a pixel; proposals saved while hot
-/// are spent at the end temperature.
+/// so it starts at about 1.44 c whatever `start` is; constant stays at `end`. Kirkpatrick's has 100 stages
+/// that share the proposals; a stage ends when as many swaps were accepted as 0.2 % of an equal share.
 /// Errors: invalid_input (unknown name, start not above 0, end not in 0..start, 0 where the formula
 /// cannot reach it, proposals not in 1..2^62).
-CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals,
-                              std::int64_t pixels);
+CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals);
 
 /// Classes of worsenings in traces: class i holds rises of the energy by 2^i .. 2^(i+1) - 1, the last one
 /// all larger ones too.
@@ -136,5 +138,136 @@ struct AnnealProblem {
 
 /// The energy of any permutation, recomputed from its definition. Errors: as anneal_retarget().
 std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move);
+
+// --- the run ---------------------------------------------------------------------------------------
+
+/// Where the temperature starts.
+struct StartTemperature {
+  enum class Rule {
+    automatic,   ///< from the problem: see automatic_temperatures()
+    given,       ///< `value`, above 0
+    acceptance,  ///< such that a share `value`, 0.001..0.999, of the worsening swaps within reach is
+                 ///< accepted from the identity on, by sampling; within a few percent
+    everything,  ///< twice the largest cost: any swap is rather accepted than not. Not for a residual
+  };
+  Rule rule = Rule::automatic;
+  double value = 0.0;
+};
+
+/// Several chains on one problem. They share nothing but the seed.
+struct ChainOptions {
+  enum class Coupling {
+    independent,  ///< each cools by the schedule; the best result is kept
+    tempering,    ///< parallel tempering: constant temperatures in geometric steps from start to end, the
+                ///< schedule unused; neighbours offer to exchange places. C. J. Geyer, "Markov chain Monte
+                ///< Carlo maximum likelihood", Computing Science and Statistics 23 (1991)
+  };
+  int count = 1;  ///< 1..256, tempering 2..256
+  Coupling coupling = Coupling::independent;
+};
+
+/// One sample of a running annealing.
+struct TracePoint {
+  std::int64_t proposals = 0;  ///< made so far by the traced chain
+  double seconds = 0.0;        ///< of wall time since the start
+  double temperature = 0.0;
+  std::int64_t energy = 0;       ///< of the traced chain, now
+  std::int64_t best_energy = 0;  ///< of any chain, so far
+  double accepted_share = 0.0;   ///< of the proposals since the point before
+  /// Worsening swaps within reach, in one sweep at this point; all 0 where sampling it would slow the run.
+  std::array<std::int64_t, kWorseningClasses> worsening_tried{};
+  std::array<std::int64_t, kWorseningClasses> worsening_accepted{};
+};
+
+/// Collects at most kCapacity points, evenly over a run. One annealing writes; any number of threads may
+/// read size() and the points below it at any time, without locks.
+class AnnealTrace {
+ public:
+  static constexpr std::size_t kCapacity = 1024;
+
+  AnnealTrace() : points_(kCapacity) {}
+  std::size_t size() const { return size_.load(std::memory_order_acquire); }
+  const TracePoint& operator[](std::size_t i) const { return points_[i]; }
+  /// For the annealing. Points beyond the capacity are dropped.
+  void add(const TracePoint& point);
+
+  /// A header line and one line a point: step, seconds, temperature, energy, best, lower_bound, accepted, and
+  /// worse_<2^i>_tried, worse_<2^i>_accepted for each class.
+  std::string csv(std::int64_t lower_bound = 0) const;
+
+ private:
+  std::vector<TracePoint> points_;
+  std::atomic<std::size_t> size_{0};
+};
+
+/// Stopping and going on. A checkpoint is taken between rounds, so a resumed run makes the same bytes as
+/// one that was never stopped.
+struct Checkpointing {
+  /// Called with an opaque checkpoint at most every `interval_s`, and once when a stop was requested;
+  /// from the calling thread. Write it crash-safely (bn/texture.h, write_text_file).
+  std::function<void(std::string_view checkpoint)> save = {};
+  /// Seconds between two, 0.01..3600; stretched up to 28 s where saving takes longer than a fiftieth of it.
+  double interval_s = 10.0;
+  /// A checkpoint to go on from; empty to start afresh.
+  std::string resume = {};
+};
+
+struct AnnealOptions {
+  std::string schedule = "exponential";  ///< one of schedule_names()
+  StartTemperature start = {};
+  double end_temperature = 0.0;  ///< above 0, at most the start; 0: automatic
+  /// Where set, used as it is in place of schedule, start and end.
+  std::optional<CoolingSchedule> custom = {};
+  /// Budget of each chain, 1..2^62. A proposal is one pair of seeds, within reach or not. The last 64th is
+  /// spent at temperature 0, whatever the schedule.
+  std::int64_t proposals = 1'000'000'000;
+  std::uint64_t seed = 1;
+  /// Largest distance per axis of two seeds that are swapped, 1..2 radius; 0 for 5/3 radius.
+  int swap_distance_px = 0;
+  ChainOptions chains = {};
+  std::int64_t lower_bound = 0;  ///< known from the exact solver; goes into the result
+  Checkpointing checkpoint = {};
+};
+
+struct AnnealResult {
+  RetargetTile tile;           ///< the best placement seen; tile.lower_bound from the options
+  std::int64_t proposals = 0;  ///< made, by all chains
+  std::int64_t accepted = 0;
+  double start_temperature = 0.0;
+  double end_temperature = 0.0;
+  bool frozen = false;  ///< the schedule ended the run before the budget did
+};
+
+/// Anneals from the identity R = m.
+///
+/// Energies that are sums over pixels run on vectors, a residual swap by swap. Same bytes for any number
+/// of threads and any instruction set, with or without a trace, resumed or not.
+///
+/// With radius 1 whole rows moved by one cannot be reached by swaps; such permutations are never good ones.
+/// Errors: invalid_input (an option outside its range, a checkpoint of another problem or damaged),
+/// over_limit (memory; energies that could pass 2^62), cancelled. Threads: over chains and, in tiles of 128
+/// rows and more, over bands of rows; execution.threads. Cost and quality: docs/annealing.md. Memory: about
+/// 20 bytes a pixel and chain for 8 bit levels, 40 for wider ones.
+AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& options,
+                             const Execution& execution = {}, AnnealTrace* trace = nullptr);
+
+/// The variants of one motion set: index (m.y + range) * (2 range + 1) + m.x + range, range 0..8; motion and
+/// chains of the arguments are ignored. Every tile equals anneal_retarget() with that motion.
+std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const AnnealOptions& options,
+                                            int range, const Execution& execution = {});
+
+/// The temperatures an automatic start and end stand for. For sums over pixels, with c the mean over pixels
+/// of the least cost within reach (at least 1/2): start 6 c, end 0.9 c. For a residual, a start that accepts
+/// a fifth of the worsening swaps, and a 4000th of it as end.
+struct TemperatureRange {
+  double start = 0.0;
+  double end = 0.0;
+};
+TemperatureRange automatic_temperatures(const AnnealProblem& problem);
+
+/// The proposals that `seconds` of wall time allow, by a trial run of at most a twentieth of them. A clock
+/// decides, so record the number where bytes must come back.
+std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const AnnealOptions& options,
+                           const Execution& execution = {});
 
 }  // namespace bn

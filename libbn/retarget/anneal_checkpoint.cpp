@@ -1,0 +1,186 @@
+#include "retarget/anneal_checkpoint.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <bit>
+#include <cstring>
+
+namespace bn {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x313070636c6e6e61;  // "annlcp01"
+
+[[noreturn]] void refuse(std::string what, std::string remedy) {
+  throw Error({.code = ErrorCode::invalid_input,
+               .what = std::move(what),
+               .where = "checkpoint",
+               .limit = "a checkpoint of the same problem and options, whole",
+               .remedy = std::move(remedy)});
+}
+
+void put(std::string& bytes, std::uint64_t value) {
+  for (int i = 0; i < 8; ++i) bytes.push_back(static_cast<char>(value >> (8 * i) & 255));
+}
+void put(std::string& bytes, std::int64_t value) { put(bytes, static_cast<std::uint64_t>(value)); }
+void put(std::string& bytes, double value) { put(bytes, std::bit_cast<std::uint64_t>(value)); }
+
+class Reader {
+ public:
+  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  std::uint64_t take() {
+    need(8);
+    std::uint64_t value = 0;
+    for (int i = 0; i < 8; ++i)
+      value |= std::uint64_t{static_cast<unsigned char>(bytes_[static_cast<std::size_t>(i)])} << (8 * i);
+    bytes_.remove_prefix(8);
+    return value;
+  }
+  std::int64_t take_signed() { return static_cast<std::int64_t>(take()); }
+  std::string_view take(std::size_t count) {
+    need(count);
+    const auto taken = bytes_.substr(0, count);
+    bytes_.remove_prefix(count);
+    return taken;
+  }
+  bool empty() const { return bytes_.empty(); }
+
+ private:
+  void need(std::size_t count) const {
+    if (bytes_.size() < count) refuse("it is cut short", "start afresh");
+  }
+  std::string_view bytes_;
+};
+
+template <class Progress, class Visit>
+void for_each_field(Progress& p, Visit&& visit) {
+  for (auto* field : {&p.step, &p.stage, &p.tried, &p.accepted, &p.changed, &p.frozen_stages}) visit(*field);
+}
+
+template <class Record, class Visit>
+void for_each_number(Record& r, Visit&& visit) {
+  for_each_field(r.cooling, visit);
+  for (auto* field : {&r.round, &r.proposals, &r.accepted, &r.best_energy}) visit(*field);
+}
+
+void put(std::string& bytes, const Grid<Offset>& placement) {
+  for (const Offset k : placement) {
+    bytes.push_back(static_cast<char>(k.x));
+    bytes.push_back(static_cast<char>(k.y));
+  }
+}
+
+Grid<Offset> take_placement(Reader& reader, const AnnealInstance& instance) {
+  Grid<Offset> placement(instance.size);
+  const std::string_view bytes = reader.take(2 * placement.count());
+  for (std::size_t i = 0; i < placement.count(); ++i) {
+    placement[i] = {static_cast<signed char>(bytes[2 * i]), static_cast<signed char>(bytes[2 * i + 1])};
+  }
+  // The hash guards against accidents; this one keeps a forged file from breaking a promise.
+  try {
+    check_permutation(instance.moves_of(placement), instance.options);
+  } catch (const Error& error) {
+    refuse(std::string("its placement is none: ") + error.what(), "start afresh");
+  }
+  return placement;
+}
+
+void put(std::string& bytes, const CoolingSchedule& schedule) {
+  put(bytes, static_cast<std::uint64_t>(schedule.index()));
+  struct Put {
+    std::string& bytes;
+    void operator()(const ConstantCooling& s) const { put(bytes, s.temperature); }
+    void operator()(const GreedyCooling&) const {}
+    void operator()(const HajekCooling& s) const { put(bytes, s.c); }
+    void operator()(const LinearCooling& s) const {
+      put(bytes, s.start), put(bytes, s.slope), put(bytes, s.end);
+    }
+    void operator()(const ExponentialCooling& s) const { put(bytes, s.start), put(bytes, s.factor); }
+    void operator()(const InverseCooling& s) const { put(bytes, s.start), put(bytes, s.factor); }
+    void operator()(const KirkpatrickCooling& s) const {
+      put(bytes, s.start), put(bytes, s.factor), put(bytes, s.accepted_per_stage),
+          put(bytes, s.tried_per_stage);
+      put(bytes, std::int64_t{s.frozen_stages}), put(bytes, s.end), put(bytes, std::int64_t{s.stages});
+    }
+  };
+  std::visit(Put{bytes}, schedule);
+}
+
+}  // namespace
+
+std::uint64_t fingerprint_of(const AnnealProblem& problem, const AnnealOptions& options) {
+  std::string text;
+  put(text, std::int64_t{kAnnealVersion});
+  for (const AnnealChannel& channel : problem.channels) {
+    put(text, std::int64_t{channel.levels.width()});
+    put(text, std::int64_t{channel.weight});
+    put(text,
+        std::uint64_t{XXH3_64bits(channel.levels.data(), channel.levels.count() * sizeof(std::int32_t))});
+  }
+  const RetargetOptions& r = problem.retarget;
+  for (const int value :
+       {r.step.x, r.step.y, r.motion.x, r.motion.y, r.radius, static_cast<int>(r.reach),
+        static_cast<int>(r.metric), static_cast<int>(r.wrap), options.swap_distance_px, options.chains.count,
+        static_cast<int>(options.chains.coupling), static_cast<int>(options.start.rule)}) {
+    put(text, std::int64_t{value});
+  }
+  for (const double value : {problem.residual_sigma_px, options.start.value, options.end_temperature})
+    put(text, value);
+  put(text, options.proposals);
+  put(text, options.seed);
+  text += options.schedule;
+  if (options.custom) put(text, *options.custom);
+  return XXH3_64bits(text.data(), text.size());
+}
+
+std::string encode_checkpoint(std::uint64_t fingerprint, const RunRecord& record) {
+  std::string bytes;
+  put(bytes, kMagic);
+  put(bytes, std::int64_t{kAnnealVersion});
+  put(bytes, fingerprint);
+  put(bytes, static_cast<std::uint64_t>(record.chains.size()));
+  put(bytes, record.beats);
+  for (const ChainRecord& chain : record.chains) {
+    for_each_number(chain, [&](std::int64_t value) { put(bytes, value); });
+    put(bytes, chain.now);
+    put(bytes, chain.best);
+  }
+  put(bytes, std::uint64_t{XXH3_64bits(bytes.data(), bytes.size())});
+  return bytes;
+}
+
+RunRecord decode_checkpoint(std::string_view bytes, std::uint64_t fingerprint, std::size_t chains,
+                            const AnnealInstance& instance) {
+  Reader header(bytes);
+  if (header.take() != kMagic)
+    refuse("it is not a checkpoint of annealing", "give the right file, or start afresh");
+  if (header.take_signed() != kAnnealVersion)
+    refuse("it is of another version of the algorithm", "start afresh");
+  if (header.take() != fingerprint) {
+    refuse("it belongs to another problem or other options",
+           "give the options it was made with, or start afresh");
+  }
+  if (bytes.size() < 48) refuse("it is cut short", "start afresh");
+  const std::string_view body = bytes.substr(0, bytes.size() - 8);
+  if (Reader(bytes.substr(bytes.size() - 8)).take() != XXH3_64bits(body.data(), body.size())) {
+    refuse("it is damaged or cut short", "start afresh");
+  }
+  Reader reader(body);
+  reader.take(24);
+  RunRecord record;
+  if (reader.take() != chains) refuse("it has another number of chains", "start afresh");
+  record.beats = reader.take_signed();
+  for (std::size_t c = 0; c < chains; ++c) {
+    ChainRecord& chain = record.chains.emplace_back();
+    for_each_number(chain, [&](std::int64_t& value) {
+      value = reader.take_signed();
+      if (value < 0) refuse("it holds a negative count", "start afresh");
+    });
+    chain.now = take_placement(reader, instance);
+    chain.best = take_placement(reader, instance);
+  }
+  if (!reader.empty()) refuse("it is too long", "start afresh");
+  return record;
+}
+
+}  // namespace bn
