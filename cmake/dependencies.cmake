@@ -12,6 +12,7 @@ find_package(Vulkan REQUIRED COMPONENTS glslc)
 # The CMake configuration of Debian's OpenImageIO 2.4 names files that are not packaged.
 pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO>=2.4)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy>=1.0.3)
+pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng>=1.6)
 pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash>=0.8)
 if(BN_BUILD_TESTS)
   find_package(GTest REQUIRED)

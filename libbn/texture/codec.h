@@ -21,6 +21,16 @@ struct Decoded {
   std::string description;
 };
 
+/// Lower case, without the dot.
+inline std::string extension_of(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return extension;
+}
+
 /// Decodes bytes by their signature, or by the extension of `name` where they have none of those we
 /// know. Throws like read_image(); `name` is for messages.
 Decoded decode(ByteView bytes, const std::string& name, const Execution& execution);
@@ -28,10 +38,13 @@ Decoded decode(ByteView bytes, const std::string& name, const Execution& executi
 /// The bytes of the file that write_image() puts at `path`; nothing is written. Throws like it.
 Bytes encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
 
-// Through OpenImageIO. `format` is its name of a format: "png", "openexr", "tiff", or an extension.
+// Through OpenImageIO. `format` is its name of a format: "openexr", "tiff", or an extension.
 Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
                     const Execution& execution);
 Bytes encode_oiio(const std::string& format, const Image& image, const std::string& description);
+
+// PNG is read without OpenImageIO; png.cpp says why.
+Decoded decode_png(ByteView bytes, const std::string& name, const Execution& execution);
 
 // Our own raw format.
 bool is_bin(ByteView bytes);

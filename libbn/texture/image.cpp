@@ -62,6 +62,17 @@ std::uint64_t sample_bytes(Extent size, int channels, SampleType type) {
          bytes_per_sample(type);
 }
 
+void check_decoded_size(std::uint64_t decoded_bytes, std::uint64_t file_bytes, std::string_view where) {
+  // Deflate packs no better than 1032:1; at one bit a sample, expanded to eight, that makes 8256.
+  constexpr std::uint64_t kMaxRatio = 10000, kSmall = 1 << 20;
+  if (decoded_bytes <= kSmall || decoded_bytes / kMaxRatio <= file_bytes) return;
+  fail_input(std::string(where),
+             fmt::format("its {} bytes cannot hold the {} bytes of samples that its header claims",
+                         file_bytes, decoded_bytes),
+             fmt::format("{} bytes of samples for each byte of the file", kMaxRatio),
+             "the file is corrupt or hostile");
+}
+
 void check_image(const Image& image, std::string_view where) {
   check_shape(image.size.width, image.size.height, image.channels, where);
   const std::uint64_t expected = sample_bytes(image.size, image.channels, image.type);

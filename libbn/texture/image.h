@@ -17,6 +17,9 @@ void check_shape(std::int64_t width, std::int64_t height, std::int64_t channels,
 /// Bytes of the samples of such an image. The limits keep it below 2^41.
 std::uint64_t sample_bytes(Extent size, int channels, SampleType type);
 
+/// Throws invalid_input if a file of `file_bytes` claims to hold `decoded_bytes` and cannot.
+void check_decoded_size(std::uint64_t decoded_bytes, std::uint64_t file_bytes, std::string_view where);
+
 /// check_shape(), and that there are as many samples as the shape says.
 void check_image(const Image& image, std::string_view where);
 

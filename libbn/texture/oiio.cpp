@@ -1,5 +1,5 @@
-// Reading and writing through OpenImageIO, in memory: it never sees a path, so it opens no file and
-// leaves none behind.
+// Reading (but for PNG) and writing through OpenImageIO, in memory: it never sees a path, so it opens no file
+// and leaves none behind.
 //
 // What its defaults would do and we do not want: multiply colour by alpha on reading (masks keep
 // independent values in the four channels), mark the second or fourth channel as alpha on writing,
@@ -22,10 +22,6 @@ namespace bn::texture {
 namespace {
 
 using OIIO::TypeDesc;
-
-/// Deflate packs no better than 1032:1; at one bit a sample, expanded to eight, that makes 8256.
-constexpr std::uint64_t kMaxRatio = 10000;
-constexpr std::uint64_t kSmallImageBytes = 1 << 20;
 
 /// Attributes of the whole process: one thread, so nothing can depend on their number.
 void configure() {
@@ -100,12 +96,7 @@ void check_spec(const OIIO::ImageSpec& spec, const StoredType& type, std::size_t
   if (spec.deep) fail_input(name, "a deep image", "flat images");
   if (spec.depth > 1) fail_input(name, "a volume", "flat images");
   const std::uint64_t ours = sample_bytes({spec.width, spec.height}, spec.nchannels, type.ours);
-  if (ours > kSmallImageBytes && ours / kMaxRatio > file_bytes) {
-    fail_input(name,
-               fmt::format("{} bytes cannot hold {}x{} pixels of {} channels; the file is corrupt or hostile",
-                           file_bytes, spec.width, spec.height, spec.nchannels),
-               fmt::format("{} decoded bytes for each byte of the file", kMaxRatio));
-  }
+  check_decoded_size(ours, file_bytes, name);
   const std::uint64_t native = type.widened() ? ours / 4 * type.read.size() : 0;
   check_memory(execution, ours + native + file_bytes, name);
 }
@@ -160,8 +151,7 @@ Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string
   MemoryReader reader(bytes);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input || !input->set_ioproxy(&reader)) {
-    OIIO::geterror();
-    fail_input(name, "not an image of a known format", "PNG, EXR, TIFF, .bin, .h, BMP, TGA, JPEG, HDR");
+    fail_input(name, fmt::format("OpenImageIO cannot read '{}' here: {}", format, OIIO::geterror()));
   }
   const auto fail = [&] { fail_input(name, fmt::format("cannot be decoded: {}", input->geterror())); };
 

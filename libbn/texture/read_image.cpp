@@ -27,14 +27,17 @@ struct Signature {
 };
 
 using namespace std::string_view_literals;
+constexpr std::string_view kPng = "\x89PNG\r\n\x1a\n"sv;
 constexpr Signature kSignatures[] = {
-    {"\x89PNG\r\n\x1a\n"sv, "png"},
     {"\x76\x2f\x31\x01"sv, "openexr"},
     {"II*\0"sv, "tiff"},
     {"MM\0*"sv, "tiff"},
     {"II+\0"sv, "tiff"},
     {"MM\0+"sv, "tiff"},
 };
+
+/// Formats without a signature of their own, or a short one: known by the extension.
+constexpr std::string_view kExtensions[] = {"bmp", "hdr", "jpeg", "jpg", "pfm", "pgm", "ppm", "tga"};
 
 bool begins_with(ByteView bytes, std::string_view signature) {
   return bytes.size() >= signature.size() &&
@@ -78,12 +81,17 @@ Decoded decode_by_content(ByteView bytes, const std::string& name, const Executi
   if (bytes.empty()) fail_input(name, "an empty file");
   if (is_bin(bytes)) return decode_bin(bytes, name, execution);
   if (is_c_header(bytes)) return decode_c_header(bytes, name, execution);
+  if (begins_with(bytes, kPng)) return decode_png(bytes, name, execution);
   for (const Signature& signature : kSignatures) {
     if (begins_with(bytes, signature.bytes)) return decode_oiio(bytes, signature.format, name, execution);
   }
-  std::string extension = std::filesystem::path(name).extension().string();
-  if (!extension.empty()) extension.erase(0, 1);
-  return decode_oiio(bytes, extension, name, execution);
+  const std::string extension = extension_of(name);
+  for (const std::string_view known : kExtensions) {
+    if (extension == known) return decode_oiio(bytes, extension, name, execution);
+  }
+  fail_input(
+      name, "not an image of a known format",
+      fmt::format("PNG, EXR, TIFF, .bin and .h by content, {} by extension", fmt::join(kExtensions, ", ")));
 }
 
 }  // namespace

@@ -15,25 +15,25 @@ namespace bn {
 namespace texture {
 namespace {
 
+/// OpenImageIO reads no more than this of a TIFF's description.
+constexpr std::size_t kMaxTiffDescription = 65536;
+
 struct Format {
   std::string_view extension;
   const char* oiio;  ///< OpenImageIO's name of it, nullptr for our own
   bool integers;
   bool floats;
+  std::size_t max_metadata_bytes = kMaxMetadataBytes;
 };
 
 constexpr Format kFormats[] = {
-    {".png", "png", true, false},  {".exr", "openexr", false, true}, {".tif", "tiff", true, true},
-    {".tiff", "tiff", true, true}, {".bin", nullptr, true, true},    {".h", nullptr, true, true},
+    {"png", "png", true, false},
+    {"exr", "openexr", false, true},
+    {"tif", "tiff", true, true, kMaxTiffDescription},
+    {"tiff", "tiff", true, true, kMaxTiffDescription},
+    {"bin", nullptr, true, true},
+    {"h", nullptr, true, true},
 };
-
-std::string extension_of(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
-}
 
 /// The format that the extension names, or an error if it cannot hold such samples.
 const Format& format_for(const std::filesystem::path& path, SampleType type, int channels) {
@@ -42,12 +42,12 @@ const Format& format_for(const std::filesystem::path& path, SampleType type, int
   for (const Format& format : kFormats) {
     if (format.extension != extension) continue;
     if (type == SampleType::f32 ? !format.floats : !format.integers) {
-      fail_input(where, fmt::format("{} cannot hold {} samples", extension, name_of(type)),
+      fail_input(where, fmt::format(".{} cannot hold {} samples", extension, name_of(type)),
                  format.floats ? "float" : "8bit, 16bit",
                  format.floats ? "write float" : "write .exr or .tif");
     }
     check_shape(1, 1, channels, where);
-    if (extension == ".png" && channels != 1 && channels != 3 && channels != 4) {
+    if (extension == "png" && channels != 1 && channels != 3 && channels != 4) {
       fail_input(where, fmt::format("{} channels in PNG", channels), "1, 3 or 4",
                  channels == 2
                      ? "add a third channel of zeros (PNG makes a second one alpha), or write .tif or .bin"
@@ -55,7 +55,7 @@ const Format& format_for(const std::filesystem::path& path, SampleType type, int
     }
     return format;
   }
-  fail_input(where, fmt::format("unknown extension '{}'", extension), ".png, .exr, .tif, .tiff, .bin, .h");
+  fail_input(where, fmt::format("unknown extension '.{}'", extension), ".png, .exr, .tif, .tiff, .bin, .h");
 }
 
 }  // namespace
@@ -64,12 +64,13 @@ Bytes encode(const std::filesystem::path& path, const Image& image, const Metada
   const Format& format = format_for(path, image.type, image.channels);
   check_image(image, path.string());
   const std::string json = to_json(metadata);
-  if (json.size() > kMaxMetadataBytes) {
+  if (json.size() > format.max_metadata_bytes) {
     fail_input(path.string(), fmt::format("{} bytes of metadata", json.size()),
-               fmt::format("at most {} bytes", kMaxMetadataBytes), "shorten the recipe");
+               fmt::format("at most {} bytes in .{}", format.max_metadata_bytes, format.extension),
+               "shorten the recipe or choose another format");
   }
   if (format.oiio != nullptr) return encode_oiio(format.oiio, image, json);
-  if (format.extension == ".bin") return encode_bin(image, metadata);
+  if (format.extension == "bin") return encode_bin(image, metadata);
   return encode_c_header(path.stem().string(), image, metadata);
 }
 

@@ -82,10 +82,9 @@ struct FileContent {
   std::string metadata_fault;
 };
 
-/// Reads the first picture of a PNG, EXR or TIFF file, of our own .bin and .h, and of other formats
-/// that OpenImageIO decodes from memory (BMP, TGA, JPEG, HDR, ...). PNG, EXR, TIFF and ours are known
-/// by their content, others by their extension. Samples are those stored: no colour management, no
-/// multiplication by alpha. Palettes and 1, 2 and 4 bit grey are expanded to 8bit, half is widened to
+/// Reads the first picture of a PNG, EXR or TIFF file, of our own .bin and .h (all known by their
+/// content), and of BMP, HDR, JPEG, PFM, PGM, PPM and TGA (known by the extension). Samples are those
+/// stored: no colour management, no multiplication by alpha. Palettes and 1, 2 and 4 bit grey are expanded to 8bit, half is widened to
 /// float; signed, 32 bit and double samples become floats of the same value (rounded to 24 bits).
 /// Recomputes nothing: a pixel hash that does not fit is for the caller to compare.
 /// Hostile headers are refused before memory is taken: sides 1..65536, channels 1..64, file and
@@ -100,6 +99,7 @@ FileContent read_image(const std::filesystem::path& path, const Execution& execu
 ///   .exr         float
 ///   .tif, .tiff  8bit, 16bit, float
 ///   .bin, .h     8bit, 16bit, float; layouts in docs/files.md; no NaN or infinity in .h
+/// The metadata take at most 4 MiB as JSON, in TIFF 64 KiB.
 /// Byte-identical for equal arguments and one version of the libraries. The file is made in memory,
 /// then a temporary in the same folder is written, checked, flushed to disk and renamed: a failure or
 /// a kill leaves an old file as it was, and no litter. Of two writers at once the last one's file
