@@ -45,12 +45,15 @@ std::string upper(std::string text) {
   return text;
 }
 
-/// JSON that cannot end or open a comment: a slash may be written \/.
+/// JSON that can neither end nor open a comment: a star may be written \u002a.
 std::string comment_safe(const std::string& json) {
   std::string safe;
   for (const char c : json) {
-    if (c == '/') safe += '\\';
-    safe += c;
+    if (c == '*') {
+      safe += "\\u002a";
+    } else {
+      safe += c;
+    }
   }
   return safe;
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <mutex>
 
@@ -82,23 +83,69 @@ StoredType stored_type(const OIIO::ImageSpec& spec, const std::string& name) {
     case TypeDesc::INT16:
     case TypeDesc::INT32:
     case TypeDesc::UINT32:
-    case TypeDesc::DOUBLE:
       return {spec.format, SampleType::f32};
-    default:
+    default:  // double among them: OpenImageIO 2.4 reads it from TIFF as zeros
       fail_input(name, fmt::format("samples of type '{}'", spec.format.c_str()),
-                 "integers of at most 32 bits, half, float, double");
+                 "integers of at most 32 bits, half, float", "convert them to float");
   }
 }
 
 /// Refuses what is not read, and checks the limits, before memory is taken for the samples.
-void check_spec(const OIIO::ImageSpec& spec, const StoredType& type, std::size_t file_bytes,
-                const std::string& name, const Execution& execution) {
+void check_spec(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::string& name,
+                const Execution& execution) {
   if (spec.deep) fail_input(name, "a deep image", "flat images");
   if (spec.depth > 1) fail_input(name, "a volume", "flat images");
+  check_shape(spec.width, spec.height, spec.nchannels, name);
+  // OpenImageIO 2.4 adds this to a row number in 32 bits, and would go round for ever.
+  const int strip = spec.get_int_attribute("tiff:RowsPerStrip");
+  if (strip > std::numeric_limits<int>::max() - kMaxSide)
+    fail_input(name, fmt::format("strips of {} rows", strip));
+
+  const StoredType type = stored_type(spec, name);
   const std::uint64_t ours = sample_bytes({spec.width, spec.height}, spec.nchannels, type.ours);
   check_decoded_size(ours, file_bytes, name);
   const std::uint64_t native = type.widened() ? ours / 4 * type.read.size() : 0;
-  check_memory(execution, ours + native + file_bytes, name);
+  std::uint64_t tiles = 0;  // a row of them
+  if (spec.tile_width > 0) {
+    check_shape(spec.tile_width, spec.tile_height, 1, name + ", tiles");
+    const int across = (spec.width + spec.tile_width - 1) / spec.tile_width * spec.tile_width;
+    tiles = sample_bytes({across, spec.tile_height}, spec.nchannels, SampleType::u8) * type.read.size();
+  }
+  check_memory(execution, ours + native + tiles + file_bytes, name);
+}
+
+/// OpenEXR takes the memory that an attribute's length asks for before it looks whether the file is
+/// that long. This walks over the attributes first. A header is a list of (name, type, length, value)
+/// that ends with an empty name; a file of many parts has a list of headers that ends with an empty one.
+void check_exr_header(ByteView bytes, const std::string& name) {
+  const auto fail = [&] {
+    fail_input(name, "cannot be decoded: an EXR header that is cut short or corrupt");
+  };
+  constexpr std::size_t kMagicAndVersion = 8, kMultiPart = 0x10;
+  if (bytes.size() < kMagicAndVersion) fail();
+  const bool many = (std::to_integer<unsigned>(bytes[5]) & kMultiPart) != 0;
+  ByteView rest = bytes.subspan(kMagicAndVersion);
+  const auto skip = [&](std::size_t count) {
+    if (count > rest.size()) fail();
+    rest = rest.subspan(count);
+  };
+  /// Passes a text with its zero; true if it was empty.
+  const auto skip_text = [&] {
+    const auto end = std::find(rest.begin(), rest.end(), std::byte{0});
+    const auto length = static_cast<std::size_t>(end - rest.begin());
+    skip(length + 1);
+    return length == 0;
+  };
+  do {
+    while (!skip_text()) {
+      skip_text();
+      std::uint32_t length = 0;
+      if (rest.size() < sizeof length) fail();
+      std::memcpy(&length, rest.data(), sizeof length);
+      skip(sizeof length);
+      skip(length);
+    }
+  } while (many && !rest.empty() && rest[0] != std::byte{0});
 }
 
 template <class Sample>
@@ -119,10 +166,8 @@ void to_float(TypeDesc type, const std::vector<std::byte>& native, std::vector<s
       return to_float<std::int16_t>(native, samples);
     case TypeDesc::INT32:
       return to_float<std::int32_t>(native, samples);
-    case TypeDesc::UINT32:
-      return to_float<std::uint32_t>(native, samples);
     default:
-      return to_float<double>(native, samples);
+      return to_float<std::uint32_t>(native, samples);
   }
 }
 
@@ -148,19 +193,22 @@ TypeDesc type_desc(SampleType type) {
 Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
                     const Execution& execution) {
   configure();
+  if (format == "openexr") check_exr_header(bytes, name);
   MemoryReader reader(bytes);
   const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
   if (!input || !input->set_ioproxy(&reader)) {
     fail_input(name, fmt::format("OpenImageIO cannot read '{}' here: {}", format, OIIO::geterror()));
   }
-  const auto fail = [&] { fail_input(name, fmt::format("cannot be decoded: {}", input->geterror())); };
+  const auto fail = [&] {
+    const std::string message = input->geterror();  // one line a failed strip
+    fail_input(name, fmt::format("cannot be decoded: {}", message.substr(0, message.find('\n'))));
+  };
 
   OIIO::ImageSpec spec, wishes;
   wishes.attribute("oiio:UnassociatedAlpha", 1);
   if (!input->open("image." + format, spec, wishes)) fail();
-  check_shape(spec.width, spec.height, spec.nchannels, name);
+  check_spec(spec, bytes.size(), name, execution);
   const StoredType type = stored_type(spec, name);
-  check_spec(spec, type, bytes.size(), name, execution);
 
   Decoded decoded;
   Image& image = decoded.image;

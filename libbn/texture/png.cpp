@@ -81,23 +81,25 @@ std::string description_of(png_structp png, png_infop info) {
 
 Decoded decode_png(ByteView bytes, const std::string& name, const Execution& execution) {
   Reader reader(bytes, name);
-  reader.guarded([](png_structp png, png_infop info) { png_read_info(png, info); });
+  std::int64_t width = 0, height = 0;
+  reader.guarded([&](png_structp png, png_infop info) {
+    png_read_info(png, info);
+    width = png_get_image_width(png, info);
+    height = png_get_image_height(png, info);
+  });
+  check_shape(width, height, 1, name);
 
   int passes = 0, channels = 0, depth = 0;
-  std::int64_t width = 0, height = 0;
   std::size_t row_bytes = 0;
   reader.guarded([&](png_structp png, png_infop info) {
     png_set_expand(png);  // palettes, small depths, transparency
     png_set_swap(png);    // 16 bit samples to little-endian
     passes = png_set_interlace_handling(png);
-    width = png_get_image_width(png, info);
-    height = png_get_image_height(png, info);
     png_read_update_info(png, info);
     channels = png_get_channels(png, info);
     depth = png_get_bit_depth(png, info);
     row_bytes = png_get_rowbytes(png, info);
   });
-  check_shape(width, height, channels, name);
   Decoded decoded;
   Image& image = decoded.image;
   image.size = {static_cast<int>(width), static_cast<int>(height)};

@@ -84,8 +84,9 @@ struct FileContent {
 
 /// Reads the first picture of a PNG, EXR or TIFF file, of our own .bin and .h (all known by their
 /// content), and of BMP, HDR, JPEG, PFM, PGM, PPM and TGA (known by the extension). Samples are those
-/// stored: no colour management, no multiplication by alpha. Palettes and 1, 2 and 4 bit grey are expanded to 8bit, half is widened to
-/// float; signed, 32 bit and double samples become floats of the same value (rounded to 24 bits).
+/// stored: no colour management, no multiplication by alpha. Palettes and 1, 2 and 4 bit grey are
+/// expanded to 8bit, half is widened to float; signed and 32 bit integers become floats of the same
+/// value, rounded to 24 bits; double is refused.
 /// Recomputes nothing: a pixel hash that does not fit is for the caller to compare.
 /// Hostile headers are refused before memory is taken: sides 1..65536, channels 1..64, file and
 /// decoded size together within execution.memory_limit_bytes, at most 10,000 decoded bytes a file byte.
