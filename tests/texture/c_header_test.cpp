@@ -1,0 +1,74 @@
+// Protects: a .h is C99 and C++ without a warning, whatever the recipe in its comment says, and a
+// program that includes it sees the samples.
+#include <cstdlib>
+
+#include "texture/fixtures.h"
+
+namespace bn::texture {
+namespace {
+
+int run(const std::string& command) { return std::system((command + " > /dev/null").c_str()); }
+
+TEST(CHeader, CompilesAndHoldsTheSamples) {
+  const TemporaryFolder folder;
+  const Image moves = random_image({7, 5}, 3, SampleType::u8);
+  const Image ranks = random_image({6, 4}, 1, SampleType::u16);
+  const Image floats = image_of<float>({5, 1}, 1, SampleType::f32, {0.5f, -1.0f, 3e38f, 1e-45f, 0.1f});
+  Metadata metadata = full_metadata();
+  metadata.recipe += "*/ #error \"out of the comment\"\n/* // \\\n";
+  write_image(folder / "1 tile-a.h", moves, metadata);
+  write_image(folder / "int.h", ranks, metadata);
+  write_image(folder / "floats.h", floats, metadata);
+
+  std::string program =
+      "#include \"1 tile-a.h\"\n#include \"int.h\"\n#include \"floats.h\"\n#include \"int.h\"\nint "
+      "main(void) {\n"
+      "  return !(sizeof bn_1_tile_a == 7 * 5 * 3 && BN_1_TILE_A_CHANNELS == 3 && BN_1_TILE_A_WIDTH == 7 &&\n"
+      "    BN_1_TILE_A_HEIGHT == 5 && sizeof bn_int == 2 * 6 * 4 && BN_INT_CHANNELS == 1";
+  const auto add = [&](const std::string& sample, auto value) {
+    program += " &&\n    " + sample + " == " + value;
+  };
+  const auto text = [](int i) { return std::to_string(i); };
+  for (int y = 0; y < 5; ++y) {
+    for (int x = 0; x < 7; ++x) {
+      for (int c = 0; c < 3; ++c) {
+        add("bn_1_tile_a[" + text(y) + "][" + text(x) + "][" + text(c) + "]",
+            text(samples_of<std::uint8_t>(moves)[static_cast<std::size_t>((y * 7 + x) * 3 + c)]));
+      }
+    }
+  }
+  add("bn_int[3][1]", text(samples_of<std::uint16_t>(ranks)[19]));
+  const char* const exact[5] = {"0x1p-1f", "-1.0f", "3e38f", "0x1p-149f", "0.1f"};
+  for (int x = 0; x < 5; ++x) add("bn_floats[0][" + text(x) + "]", std::string(exact[x]));
+  program += ");\n}\n";
+  put_bytes(folder / "program.c", program);
+
+  const std::string source = "'" + (folder / "program.c").string() + "'",
+                    binary = "'" + (folder / "program").string() + "'";
+  if (run("gcc --version") != 0) GTEST_SKIP() << "no gcc";
+  ASSERT_EQ(run("gcc -std=c99 -pedantic -Wall -Wextra -Werror " + source + " -o " + binary), 0);
+  EXPECT_EQ(run(binary), 0) << "the program sees other samples";
+  EXPECT_EQ(run("g++ -std=c++17 -pedantic -Wall -Wextra -Werror -fsyntax-only -x c++ " + source), 0);
+}
+
+TEST(CHeader, Golden) {
+  // The layout that docs/files.md shows; readers of .h depend on it.
+  const TemporaryFolder folder;
+  Metadata metadata;
+  metadata.tool_version = "1.2.3";
+  metadata.kind = "mask";
+  write_image(folder / "small.h", image_of<std::uint8_t>({3, 2}, 1, SampleType::u8, {0, 1, 2, 253, 254, 255}),
+              metadata);
+  const std::string text = bytes_of(folder / "small.h");
+  EXPECT_EQ(text.substr(0, text.find("bn-metadata")),
+            "/* Texture written by libbn 1.2.3: 3x2 pixels, channels: 1, 8bit.\nOrigin top-left; "
+            "bn_small[y][x].\n\n");
+  EXPECT_EQ(
+      text.substr(text.find("*/")),
+      "*/\n#ifndef BN_SMALL_H\n#define BN_SMALL_H\n\n#include <stdint.h>\n\n#define BN_SMALL_WIDTH 3\n"
+      "#define BN_SMALL_HEIGHT 2\n#define BN_SMALL_CHANNELS 1\n\nstatic const uint8_t bn_small[2][3] = {\n"
+      "  {0,1,2},\n  {253,254,255},\n};\n\n#endif /* BN_SMALL_H */\n");
+}
+
+}  // namespace
+}  // namespace bn::texture
