@@ -19,7 +19,7 @@ constexpr double kAny = std::numeric_limits<double>::infinity();
 /// Upper limits of the four lower bands. The fifth needs none: by Parseval it holds the rest.
 using BandLimits = std::array<double, 4>;
 
-/// A good two-dimensional mask reads .00003 | .0003 | .0035 | .054 (void-and-cluster, sigma 1.5), one
+/// A good two-dimensional mask reads .00003 | .0003 | .0035 | .054 (void-and-cluster, sigma 1.9), one
 /// of a generator that leaves a start pixel's energy behind .015 in the lowest band. The limits
 /// stand near the geometric middle where both sides are known, and at three to ten times the good value elsewhere.
 constexpr BandLimits kBlueLimits{0.002, 0.004, 0.02, 0.15};

@@ -2,15 +2,15 @@
 //
 // Problem: the same mask comes as 8 bit, 16 bit or float, its values spaced differently and some
 // equal; the figures should not care. Sorting 4096^2 values by comparisons would take longer than the transform.
-// Method: integers in a range not much longer than the data are counted; others are sorted by the bits of the
-// double, whose order is made that of the values.
+// Method: integers in a range not much longer than the data are counted; others go through a radix
+// sort of their place between the least and the greatest value, in 32 bits, and the few that share a place through a
+// comparison sort.
 // Invariant: equal values get equal ranks, their mean; the order of equal values decides nothing.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -43,65 +43,57 @@ std::vector<double> ranks_by_counting(std::span<const double> values, double low
   return rank;
 }
 
-/// Bits whose order as unsigned integers is the order of the values; the two zeros are equal.
-std::uint64_t sort_key(double value) {
-  const auto bits = std::bit_cast<std::uint64_t>(value + 0.0);
-  const std::uint64_t sign = std::uint64_t{1} << 63;
-  return (bits & sign) != 0 ? ~bits : bits | sign;
-}
-
-struct KeyedIndex {
-  std::uint64_t key;
+/// A value's place among low..high in 32 bits, and where it stands.
+struct Placed {
+  std::uint32_t place;
   std::uint32_t index;
 };
 
-/// By key. The leading 33 bits in which the keys differ go through three passes of a radix sort;
-/// keys that agree in them, few neighbours as a rule, are then sorted by comparison.
-std::vector<KeyedIndex> sorted(std::span<const double> values) {
+/// Indices of the values in ascending order.
+std::vector<Placed> sorted(std::span<const double> values, double low, double high) {
   constexpr int kDigitBits = 11, kPasses = 3;
-  constexpr std::uint64_t kDigits = std::uint64_t{1} << kDigitBits;
-  std::vector<KeyedIndex> from(values.size()), to(values.size());
-  std::uint64_t all_set = ~std::uint64_t{0}, any_set = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    from[i] = {sort_key(values[i]), static_cast<std::uint32_t>(i)};
-    all_set &= from[i].key;
-    any_set |= from[i].key;
-  }
-  const auto differing_bits = static_cast<int>(std::bit_width(all_set ^ any_set));
-  const int low_bit = std::max(0, differing_bits - kPasses * kDigitBits);
-
-  const auto digit = [&](const KeyedIndex& entry, int pass) {
-    return (entry.key >> (low_bit + pass * kDigitBits)) & (kDigits - 1);
-  };
+  constexpr std::uint32_t kDigits = 1u << kDigitBits;
+  constexpr double kLastPlace = 4294967295.0;
+  // Halves, because high - low may be above the largest double. Each step keeps the order, so places
+  // never contradict values; a range too small for the scale leaves all in one place.
+  const double scale = std::min(kLastPlace / (0.5 * high - 0.5 * low), std::numeric_limits<double>::max());
+  std::vector<Placed> from(values.size()), to(values.size());
   std::array<std::array<std::uint32_t, kDigits>, kPasses> start{};
-  for (const KeyedIndex& entry : from) {
-    for (int pass = 0; pass < kPasses; ++pass) ++start[pass][digit(entry, pass)];
+  const auto digit = [](std::uint32_t place, int pass) { return (place >> (pass * kDigitBits)) % kDigits; };
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double place = std::min((0.5 * values[i] - 0.5 * low) * scale, kLastPlace);
+    from[i] = {static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(i)};
+    for (int pass = 0; pass < kPasses; ++pass) ++start[pass][digit(from[i].place, pass)];
   }
   for (int pass = 0; pass < kPasses; ++pass) {
     std::uint32_t before = 0;
     for (std::uint32_t& at : start[pass]) before += std::exchange(at, before);
-    for (const KeyedIndex& entry : from) to[start[pass][digit(entry, pass)]++] = entry;
+    for (const Placed& entry : from) to[start[pass][digit(entry.place, pass)]++] = entry;
     from.swap(to);
-  }
-
-  const auto by_key = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key < b.key; };
-  for (auto first = from.begin(); first != from.end();) {
-    auto last = first + 1;
-    while (last != from.end() && last->key >> low_bit == first->key >> low_bit) ++last;
-    if (last - first > 1) std::sort(first, last, by_key);
-    first = last;
   }
   return from;
 }
 
-std::vector<double> ranks_by_sorting(std::span<const double> values) {
-  const std::vector<KeyedIndex> order = sorted(values);
+std::vector<double> ranks_by_sorting(std::span<const double> values, double low, double high) {
+  std::vector<Placed> order = sorted(values, low, high);
   std::vector<double> rank(values.size());
+  const auto value = [&](std::size_t i) { return values[order[i].index]; };
   for (std::size_t first = 0; first < order.size();) {
-    std::size_t last = first;
-    while (last + 1 < order.size() && order[last + 1].key == order[first].key) ++last;
-    const double mean = 0.5 * (static_cast<double>(first) + static_cast<double>(last));
-    for (; first <= last; ++first) rank[order[first].index] = mean;
+    std::size_t last = first + 1;
+    while (last < order.size() && order[last].place == order[first].place) ++last;
+    if (last == first + 1) {
+      rank[order[first].index] = static_cast<double>(first);
+      first = last;
+      continue;
+    }
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.begin() + static_cast<std::ptrdiff_t>(last),
+              [&](const Placed& a, const Placed& b) { return values[a.index] < values[b.index]; });
+    while (first < last) {
+      std::size_t end = first + 1;
+      while (end < last && value(end) == value(first)) ++end;
+      const double mean = 0.5 * static_cast<double>(first + end - 1);
+      for (; first < end; ++first) rank[order[first].index] = mean;
+    }
   }
   return rank;
 }
@@ -134,13 +126,13 @@ std::vector<double> midranks(std::span<const double> values, const Execution& ex
   }
   if (values.empty()) return {};
   check_finite(values, {static_cast<int>(std::min<std::int64_t>(count, kMaxSpectrumSide)), 1, 1}, "ranks", execution);
-  check_memory(execution, static_cast<std::uint64_t>(count) * (2 * sizeof(KeyedIndex) + sizeof(double)), "ranks");
+  check_memory(execution, static_cast<std::uint64_t>(count) * (2 * sizeof(Placed) + sizeof(double)), "ranks");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double range = *high - *low + 1.0;
   if (range <= std::max(kSmallRange, 4.0 * static_cast<double>(count)) && all_integers(values)) {
     return ranks_by_counting(values, *low, *high);
   }
-  return ranks_by_sorting(values);
+  return ranks_by_sorting(values, *low, *high);
 }
 
 std::vector<double> thresholded(std::span<const double> values, double level, const Execution& execution) {

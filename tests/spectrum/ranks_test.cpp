@@ -28,17 +28,22 @@ TEST(Midranks, EqualTheirDefinition) {
   EXPECT_EQ(midranks(uniform), direct_midranks(uniform));
   auto coarse = uniform, wide = uniform, permutation = uniform;
   for (double& v : coarse) v = std::floor(v * 37) - 11;              // counted
-  for (double& v : wide) v = std::pow(10.0, 600 * v - 300);          // every digit of the key
+  for (double& v : wide) v = std::pow(10.0, 600 * v - 300);          // nearly all in one place of the sort
   for (std::size_t i = 0; i < wide.size(); i += 3) wide[i] = -wide[i];
   std::iota(permutation.begin(), permutation.end(), -7.0);
   std::reverse(permutation.begin() + 100, permutation.end());
   auto almost = permutation;
   almost[3] = almost[4];  // right range, but not each value once
   for (const auto& values : {coarse, wide, permutation, almost}) EXPECT_EQ(midranks(values), direct_midranks(values));
-  auto near = uniform;  // all but one agree in the leading bits
+  auto near = uniform;  // all but one in one place, many equal
   for (double& v : near) v = 1.0 + std::floor(v * 300) * 0x1p-52;
   near[250] = -1e300;
   EXPECT_EQ(midranks(near), direct_midranks(near));
+  for (const double tiny : {0x1p-1074, 0x1p-1060, 0x1p1023}) {
+    auto extreme = uniform;
+    for (double& v : extreme) v = std::floor(v * 90 - 45) * (tiny > 1.0 ? tiny / 64 : tiny);
+    EXPECT_EQ(midranks(extreme), direct_midranks(extreme));
+  }
   const std::vector<double> zeros{0.5, -0.0, 0.0, -1e-310, 1e-310, -0.5};
   EXPECT_EQ(midranks(zeros), direct_midranks(zeros));
   EXPECT_TRUE(midranks(std::vector<double>{}).empty());
