@@ -1,106 +1,136 @@
-// Placeholder of the fast path: the definition, executed plainly in O(N²).
+// Void-and-cluster (R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE
+// 1913, 1993) on a torus, with integer energies.
+//
+// Definition. Every set pixel adds a Gaussian (gaussian_kernel.h) to the energies around it, itself included. Every
+// pixel starts with a random energy of a few low bits, far below the Gaussian's peak, which decides
+// where nothing else does. Of equal energies the lowest index y * width + x comes first.
+//   1. Initial pattern: on an empty torus, `initial_density` of the pixels are set, always the largest void (the
+//      unset pixel of least energy).
+//   2. From a copy of that pattern the tightest cluster (the set pixel of greatest energy) is taken away until
+//      none is left; the pixel taken away last has rank 0.
+//   3. The pattern itself goes on as in 1 until all pixels are set; they get the ranks that follow.
+//
+// What differs from the paper. Ulichney starts phase 1 from random points and swaps the tightest
+// cluster with the largest void until that changes nothing. A pattern made of largest voids
+// only is such a fixed point but for a swap or two (tests/noise/quality_test.cpp), so the swaps are left out.
+// Ulichney's phases 2 and 3 beyond half the pixels speak of clusters of unset pixels; as the kernel's sum is the same
+// everywhere, the tightest of those is the largest void.
+//
+// Method. Phases 1 and 3 are one run of largest voids. Phase 2 is such a run too: the energy that the unset pixels give
+// is a constant minus that of the set ones, so the tightest cluster is the least of that. void_order.h finds the
+// order of such a run.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bn/noise.h"
 #include "core/progress.h"
-#include "noise/gaussian_kernel.h"
+#include "noise/fill_tile.h"
+#include "noise/void_order.h"
 
 namespace bn {
 namespace {
 
 constexpr int kMaxSide = 16384;
-constexpr std::uint32_t kStartStream = 1;
+constexpr std::uint32_t kStartStream = 1;  // of random_bits
 
-[[noreturn]] void refuse(const char* where, std::string what, std::string limit, std::string remedy = "") {
+[[noreturn]] void refuse(const char* where, std::string what, std::string limit) {
   throw Error({.code = ErrorCode::invalid_input,
                .what = std::move(what),
                .where = where,
                .limit = std::move(limit),
-               .remedy = std::move(remedy)});
+               .remedy = ""});
 }
 
 void check(const VoidAndClusterOptions& options) {
   const auto [width, height] = options.size;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
-    refuse("size", fmt::format("a mask of {}x{} pixels", width, height),
-           fmt::format("1x1..{0}x{0}", kMaxSide));
+    refuse("size", fmt::format("a mask of {}x{} pixels", width, height), fmt::format("1x1..{0}x{0}", kMaxSide));
   }
   // Written so that NaN fails.
   if (!(options.sigma_px >= 0.3 && options.sigma_px <= 16.0)) {
-    refuse("sigma_px", fmt::format("a standard deviation of {} pixels", options.sigma_px), "0.3..16",
-           "1.9 suits most uses");
+    refuse("sigma_px", fmt::format("a standard deviation of {} pixels", options.sigma_px), "0.3..16");
   }
   if (!(options.initial_density >= 0.0 && options.initial_density <= 0.5)) {
     refuse("initial_density", fmt::format("an initial density of {}", options.initial_density), "0..0.5");
   }
   if (options.cutoff_px < 0 || options.cutoff_px > kMaxKernelRadius) {
     refuse("cutoff_px", fmt::format("a kernel cut-off of {} pixels", options.cutoff_px),
-           fmt::format("1..{}, 0 for where the weight rounds to zero", kMaxKernelRadius));
+           fmt::format("1..{}, or 0 for where the weight rounds to zero", kMaxKernelRadius));
   }
 }
 
-class Field {
- public:
-  Field(Extent size, const GaussianKernel& kernel) : energy(size), set(size), kernel_(&kernel) {}
-  Grid<std::int32_t> energy;
-  Grid<char> set;
-  void add(std::size_t pixel, int sign) {
-    const int px = static_cast<int>(pixel % static_cast<std::size_t>(energy.width()));
-    const int py = static_cast<int>(pixel / static_cast<std::size_t>(energy.width()));
-    for (int y = -kernel_->radius(); y <= kernel_->radius(); ++y) {
-      for (int x = -kernel_->radius(); x <= kernel_->radius(); ++x) {
-        energy(wrap(px + x, energy.width()), wrap(py + y, energy.height())) += sign * kernel_->weight(x, y);
-      }
+std::int32_t start_energy(std::uint64_t seed, std::uint64_t index) {
+  const std::uint64_t four = random_bits(seed, kStartStream, index / 4);
+  return static_cast<std::int32_t>((four >> (16 * (index % 4))) % kStartEnergyLimit);
+}
+
+/// Calls body(x, y, index) for every pixel, rows in parallel.
+template <class Body>
+void for_each_pixel(Extent size, const Execution& execution, const Body& body) {
+  parallel_for(execution, size.height, [&](std::int64_t y) {
+    for (int x = 0; x < size.width; ++x) {
+      body(x, static_cast<int>(y), static_cast<std::size_t>(y * size.width + x));
+    }
+  });
+}
+
+/// Phases 1 and 3: the place of each pixel in the order of largest voids, from an empty torus to a full one.
+Grid<std::uint32_t> filling_order(const VoidAndClusterOptions& options, const GaussianKernel& kernel,
+                                  const Execution& execution, ProgressMeter& meter) {
+  EnergyField field(options.size, kernel.radius(), kSetMark);
+  for_each_pixel(options.size, execution, [&](int x, int y, std::size_t index) {
+    field.at(x, y) = start_energy(options.seed, index);
+  });
+  return void_order(std::move(field), BlockKernel(kernel, 1), options.size.area(), execution, meter);
+}
+
+/// Phase 2: gives the pixels whose rank is below `initial` the ranks in which clusters leave them last.
+void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel& kernel, std::uint32_t initial,
+                     Grid<std::uint32_t>& ranks, const Execution& execution, ProgressMeter& meter) {
+  // The energy from the unset pixels: all there can be, minus that from the set ones. Unset pixels carry the mark.
+  const std::int32_t all = kernel.sum() + kStartEnergyLimit - 1;
+  EnergyField field(options.size, kernel.radius(), kSetMark + all);
+  for_each_pixel(options.size, execution, [&](int x, int y, std::size_t index) {
+    field.at(x, y) -= start_energy(options.seed, index) + (ranks[index] < initial ? kSetMark : 0);
+  });
+  const BlockKernel negative(kernel, -1);
+  for (int y = 0; y < options.size.height; ++y) {
+    throw_if_stopped(execution);
+    for (int x = 0; x < options.size.width; ++x) {
+      if (ranks(x, y) < initial) add_kernel(field, negative, x, y);
     }
   }
-
- private:
-  const GaussianKernel* kernel_;
-};
+  const Grid<std::uint32_t> removed =
+      void_order(std::move(field), BlockKernel(kernel, 1), initial, execution, meter);
+  for_each_pixel(options.size, execution, [&](int, int, std::size_t index) {
+    if (ranks[index] < initial) ranks[index] = initial - 1 - removed[index];
+  });
+}
 
 }  // namespace
 
 Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const Execution& execution) {
   check(options);
   thread_count(execution);
-  const auto count = static_cast<std::size_t>(options.size.area());
-  check_memory(execution, 16 * count, "void-and-cluster mask");
+  const auto count = static_cast<std::uint64_t>(options.size.area());
+  const auto initial =
+      static_cast<std::uint32_t>(std::floor(options.initial_density * static_cast<double>(count) + 0.5));
+  // Order and energies; then order and, while sorting, 8 bytes a pixel; and what does not grow with the mask.
+  constexpr std::uint64_t kConstantBytes = std::uint64_t{1} << 20;
+  const std::uint64_t filling = 4 * count + std::max(EnergyField::bytes(options.size), 8 * count);
+  const std::uint64_t removing = initial == 0 ? 0 : 8 * count + std::max(EnergyField::bytes(options.size), std::uint64_t{8} * initial);
+  check_memory(execution, std::max(filling, removing) + kConstantBytes, "void-and-cluster mask");
+
+  ProgressMeter meter(execution, count + initial);
   const GaussianKernel kernel(options.sigma_px, options.cutoff_px);
-  ProgressMeter meter(execution, count);
-  Field field(options.size, kernel);
-  for (std::size_t i = 0; i < count; ++i) {
-    field.energy[i] = static_cast<std::int32_t>(
-        (random_bits(options.seed, kStartStream, i / 4) >> (16 * (i % 4))) % kStartEnergyLimit);
-  }
-  Grid<std::uint32_t> ranks(options.size);
-  const auto initial = static_cast<std::size_t>(std::floor(options.initial_density * static_cast<double>(count) + 0.5));
-  Field pattern = field;
-  for (std::size_t rank = 0; rank < count; ++rank) {
-    throw_if_stopped(execution);
-    std::size_t best = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!field.set[i] && (best == count || field.energy[i] < field.energy[best])) best = i;
-    }
-    field.set[best] = 1;
-    field.add(best, 1);
-    ranks[best] = static_cast<std::uint32_t>(rank);
-    if (rank + 1 == initial) pattern = field;
-    meter.advance(1);
-  }
-  for (std::size_t rank = initial; rank-- > 0;) {
-    std::size_t best = count;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (pattern.set[i] && (best == count || pattern.energy[i] > pattern.energy[best])) best = i;
-    }
-    pattern.set[best] = 0;
-    pattern.add(best, -1);
-    ranks[best] = static_cast<std::uint32_t>(rank);
-  }
+  Grid<std::uint32_t> ranks = filling_order(options, kernel, execution, meter);
+  if (initial > 0) rank_by_removal(options, kernel, initial, ranks, execution, meter);
   meter.finish();
   return ranks;
 }
