@@ -1,0 +1,104 @@
+// Protects: masks are as blue as promised, their 8-bit histogram is flat, and the initial pattern is
+// one that Ulichney's swaps would leave alone.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <vector>
+
+#include "bn/noise.h"
+#include "reference_void_and_cluster.h"
+
+namespace bn {
+namespace {
+
+constexpr int kSide = 128;
+using Bands = std::array<double, 4>;
+
+/// Mean of |F|² / (N variance), which is 1 for white noise, over radial frequencies 0 < f <= 1/16 <
+/// f <= 2/16 < f <= 3/16 < f <= 4/16 cycles/pixel. A plain separable transform.
+Bands band_power(const Grid<std::uint32_t>& ranks) {
+  constexpr double kCount = kSide * kSide;
+  constexpr double kMean = (kCount - 1.0) / 2.0;
+  constexpr double kVariance = (kCount * kCount - 1.0) / 12.0;
+  std::vector<std::complex<double>> turn(kSide);
+  for (int i = 0; i < kSide; ++i) turn[static_cast<std::size_t>(i)] = std::polar(1.0, -2.0 * std::numbers::pi * i / kSide);
+
+  Grid<std::complex<double>> rows({kSide, kSide});
+  for (int y = 0; y < kSide; ++y) {
+    for (int u = 0; u < kSide; ++u) {
+      for (int x = 0; x < kSide; ++x) rows(u, y) += (ranks(x, y) - kMean) * turn[static_cast<std::size_t>(u * x % kSide)];
+    }
+  }
+  Bands sum{};
+  Bands entries{};
+  for (int v = -kSide / 4; v <= kSide / 4; ++v) {
+    for (int u = -kSide / 4; u <= kSide / 4; ++u) {
+      const double f = std::hypot(u, v) / kSide;
+      if (f == 0.0 || f > 0.25) continue;
+      std::complex<double> value = 0.0;
+      for (int y = 0; y < kSide; ++y) value += rows(wrap(u, kSide), y) * turn[static_cast<std::size_t>(wrap(v * y, kSide))];
+      const auto band = static_cast<std::size_t>(std::ceil(f * 16.0)) - 1;
+      sum[band] += std::norm(value) / (kCount * kVariance);
+      entries[band] += 1.0;
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= entries[i];
+  return sum;
+}
+
+void expect_blue(double sigma_px, double initial_density, const Bands& limits) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Bands bands = band_power(void_and_cluster(
+        {.size = {kSide, kSide}, .sigma_px = sigma_px, .initial_density = initial_density, .seed = seed}));
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      EXPECT_LE(bands[i], limits[i]) << "band " << i << ", sigma " << sigma_px << ", density " << initial_density
+                                     << ", seed " << seed;
+      EXPECT_GE(bands[i], limits[i] / 10.0) << "too good to be true: is the measure broken?";
+    }
+  }
+}
+
+TEST(Quality, WhiteNoiseReadsOne) {
+  // Ranks in random order; the means of 196 and more exponential variates are within 0.3 of 1 with p > 1 - 1e-4.
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
+  for (std::uint32_t i = 0; i < kSide * kSide; ++i) keys.push_back({random_bits(1, 99, i), i});
+  std::sort(keys.begin(), keys.end());
+  Grid<std::uint32_t> ranks({kSide, kSide});
+  for (std::uint32_t rank = 0; rank < keys.size(); ++rank) ranks[keys[rank].second] = rank;
+  for (const double power : band_power(ranks)) EXPECT_NEAR(power, 1.0, 0.3);
+}
+
+TEST(Quality, BandPowerAtSigma19) { expect_blue(1.9, 0.0, {0.00005, 0.0004, 0.004, 0.065}); }
+TEST(Quality, BandPowerAtSigma15) { expect_blue(1.5, 0.0, {0.00008, 0.0006, 0.0035, 0.025}); }
+TEST(Quality, BandPowerWithInitialPattern) { expect_blue(1.9, 0.1, {0.00005, 0.0004, 0.004, 0.065}); }
+
+TEST(Quality, EightBitHistogramIsFlat) {
+  const Grid<std::uint32_t> ranks = void_and_cluster({.size = {64, 32}});
+  std::array<int, 256> histogram{};
+  for (const std::uint32_t rank : ranks) ++histogram.at(std::uint64_t{rank} * 256 / ranks.count());
+  for (const int entries : histogram) EXPECT_EQ(entries, 64 * 32 / 256);
+}
+
+TEST(Quality, SwapsLeaveTheInitialPatternAlone) {
+  for (const double density : {0.05, 0.1, 0.3}) {
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      PlainPattern pattern({.size = {48, 48}, .seed = seed});
+      for (int i = 0; i < density * 48 * 48; ++i) pattern.set(pattern.largest_void());
+      int swaps = 0;
+      for (;; ++swaps) {
+        const std::size_t cluster = pattern.tightest_cluster();
+        pattern.unset(cluster);
+        const std::size_t hole = pattern.largest_void();
+        pattern.set(hole);
+        if (hole == cluster) break;
+      }
+      EXPECT_LE(swaps, 2) << "density " << density << ", seed " << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bn
