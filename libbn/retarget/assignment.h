@@ -27,6 +27,12 @@ namespace bn {
 
 inline constexpr std::int32_t kUnassigned = -1;
 
+/// A row with its level: who holds a column. Both together, as the next step needs both.
+struct Holder {
+  std::int32_t row;
+  std::int32_t level;
+};
+
 /// Rows, columns, prices. T is int32 where prices fit, else int64: the same steps, so the same result.
 template <class T>
 struct Market {
@@ -46,18 +52,20 @@ struct Market {
   std::vector<std::int32_t> row_level;
   std::vector<std::int32_t> column_level;
   std::vector<T> price;
-  std::vector<std::int32_t> column_of;  ///< per row
-  std::vector<std::int32_t> row_of;     ///< per column
+  std::vector<Holder> holder;           ///< per column
+  std::vector<std::int32_t> column_of;  ///< per row; out of date while the auction runs
   T price_limit = kMaxPrice;            ///< lower only in tests
 
-  T cost(std::int32_t row, std::int32_t column) const {
-    const T difference = T{row_level[static_cast<std::size_t>(row)]} - column_level[static_cast<std::size_t>(column)];
-    return square ? difference * difference : difference < 0 ? -difference : difference;
+  /// cost + price of a column to whoever holds it.
+  T paid(std::int32_t column) const {
+    const auto at = static_cast<std::size_t>(column);
+    const T difference = T{holder[at].level} - column_level[at];
+    return (square ? difference * difference : difference < 0 ? -difference : difference) + price[at];
   }
-  void assign(std::int32_t row, std::int32_t column) {
-    column_of[static_cast<std::size_t>(row)] = column;
-    row_of[static_cast<std::size_t>(column)] = row;
-  }
+  Holder as_holder(std::int32_t row) const { return {row, row_level[static_cast<std::size_t>(row)]}; }
+
+  /// Brings column_of up to date with holder.
+  void find_columns();
 
   /// To the auction's scale: levels times `level_scale(metric)`, before any price is set.
   void refine(int level_factor);

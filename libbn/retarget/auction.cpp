@@ -18,6 +18,9 @@
 #define HWY_TARGET_INCLUDE "retarget/auction.cpp"
 #include <hwy/foreach_target.h>
 
+#include <array>
+#include <span>
+
 #include "retarget/window-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,54 +28,115 @@ namespace bn {
 namespace HWY_NAMESPACE {
 
 template <class T, bool kSquare>
-AuctionLevel auction_level(Market<T>& market, T epsilon, const Execution& execution, ProgressMeter& progress) {
-  constexpr std::int64_t kPatience = 48, kMostRaises = 12;
-  constexpr std::int64_t kStopInterval = 8192, kProgressInterval = 4096;
-  const Window<T, kSquare> window(market);
-  const std::vector<std::int32_t> free_rows = free_discontent_rows(window, market, epsilon);
-  const std::int64_t rows = market.layout.size().area();
+class Auction {
+ public:
+  Auction(Market<T>& market, T epsilon, const Execution& execution, ProgressMeter& progress)
+      : market_(market),
+        execution_(execution),
+        progress_(progress),
+        window_(market),
+        epsilon_(epsilon),
+        patience_(kPatience * market.layout.size().area()) {}
 
-  std::int64_t bids = 0, next_raise = kPatience * rows, raises = 0, next_report = 0;
-  for (std::size_t i = 0; i < free_rows.size(); ++i) {
-    for (std::int32_t row = free_rows[i]; row != kUnassigned;) {
-      const auto best = window.cheapest(row);
-      const std::int32_t column = window.column(row, best.position);
-      T& price = market.price[static_cast<std::size_t>(column)];
-      // A row with no second column may bid anything; its market is one pixel.
-      const T raise = (best.second < Market<T>::kBlocked ? best.second - best.least : T{0}) + epsilon;
-      if (price > market.price_limit - raise) return {Outcome::overflow, epsilon};
-      market.layout.store(market.price, column, static_cast<T>(price + raise));
-      const std::int32_t outbid = market.row_of[static_cast<std::size_t>(column)];
-      market.assign(row, column);
-      if (outbid != kUnassigned) market.column_of[static_cast<std::size_t>(outbid)] = kUnassigned;
-      row = outbid;
-
-      if (++bids % kStopInterval == 0) throw_if_stopped(execution);
-      if (bids == next_raise) {
-        next_raise += kPatience * rows;
-        if (++raises > kMostRaises) return {Outcome::incomplete, epsilon};
-        if (epsilon <= Market<T>::kMaxCost / 4) epsilon = static_cast<T>(epsilon * 4);
+  AuctionLevel run() {
+    const auto [width, height] = market_.layout.size();
+    // All rows are looked at before the first bid: a freed row's column draws its neighbours' chains to an end.
+    std::vector<std::int32_t> free_rows;
+    std::vector<std::size_t> block_ends;
+    for (int y = 0; y < height; y += kBlock) {
+      for (int x = 0; x < width; x += kBlock) {
+        free_discontent_rows(window_, market_, epsilon_, {x, y}, {std::min(kBlock, width - x), std::min(kBlock, height - y)},
+                             free_rows);
+        block_ends.push_back(free_rows.size());
+        throw_if_stopped(execution_);
       }
     }
-    if (static_cast<std::int64_t>(i) == next_report) {
-      progress.advance(kProgressInterval);
-      next_report += kProgressInterval;
+    Outcome outcome = Outcome::done;
+    std::size_t begin = 0;
+    for (const std::size_t end : block_ends) {
+      outcome = settle(std::span(free_rows).subspan(begin, end - begin));
+      if (outcome != Outcome::done) break;
+      progress_.advance(kBlock * kBlock);
+      begin = end;
     }
+    market_.find_columns();
+    return {outcome, epsilon_};
   }
-  return {Outcome::done, epsilon};
-}
+
+ private:
+  static constexpr int kBlock = 64;              // a block's rows and columns stay in the second-level cache
+  static constexpr std::size_t kChains = 4;      // a bid's latency hides behind the other chains' bids
+  static constexpr std::int64_t kPatience = 48;  // bids a row before epsilon is raised
+  static constexpr int kMostRaises = 12;
+  static constexpr std::int64_t kStopInterval = 8192;
+
+  /// Bids until all of these rows have a column, and whoever they outbid too.
+  Outcome settle(std::span<const std::int32_t> free_rows) {
+    struct Chain {
+      Holder bidder;
+      std::size_t next, end;
+    };
+    std::array<Chain, kChains> chains;
+    for (std::size_t i = 0; i < kChains; ++i) {
+      chains[i] = {{kUnassigned, 0}, free_rows.size() * i / kChains, free_rows.size() * (i + 1) / kChains};
+    }
+    for (std::size_t ended = 0; ended < kChains;) {
+      ended = 0;
+      for (Chain& chain : chains) {
+        if (chain.bidder.row == kUnassigned) {
+          if (chain.next == chain.end) {
+            ++ended;
+            continue;
+          }
+          chain.bidder = market_.as_holder(free_rows[chain.next++]);
+        }
+        if (!bid(chain.bidder)) return Outcome::overflow;
+        if (++bids_ % kStopInterval == 0) throw_if_stopped(execution_);
+        if (bids_ % patience_ == 0 && !raise_epsilon()) return Outcome::incomplete;
+      }
+    }
+    return Outcome::done;
+  }
+
+  /// `bidder` takes its cheapest column and becomes who is outbid, if anyone. False if a price passes the limit.
+  HWY_INLINE bool bid(Holder& bidder) {
+    const auto best = window_.cheapest(bidder);
+    const std::int32_t column = window_.column(bidder.row, best.position);
+    T& price = market_.price[static_cast<std::size_t>(column)];
+    // Without a second column there is nobody to outbid.
+    const T raise = (best.second < Market<T>::kBlocked ? best.second - best.least : T{0}) + epsilon_;
+    if (price > market_.price_limit - raise) return false;
+    market_.layout.store(market_.price, column, static_cast<T>(price + raise));
+    std::swap(bidder, market_.holder[static_cast<std::size_t>(column)]);
+    return true;
+  }
+
+  bool raise_epsilon() {
+    if (epsilon_ <= Market<T>::kMaxCost / 4) epsilon_ = static_cast<T>(epsilon_ * 4);
+    return ++raises_ <= kMostRaises;
+  }
+
+  Market<T>& market_;
+  const Execution& execution_;
+  ProgressMeter& progress_;
+  Window<T, kSquare> window_;
+  T epsilon_;
+  std::int64_t patience_;
+  std::int64_t bids_ = 0;
+  int raises_ = 0;
+};
 
 AuctionLevel Auction32(Market<std::int32_t>& market, std::int64_t epsilon, const Execution& execution,
                        ProgressMeter& progress) {
   const auto narrow = static_cast<std::int32_t>(epsilon);
-  return market.square ? auction_level<std::int32_t, true>(market, narrow, execution, progress)
-                       : auction_level<std::int32_t, false>(market, narrow, execution, progress);
+  return market.square ? Auction<std::int32_t, true>(market, narrow, execution, progress).run()
+                       : Auction<std::int32_t, false>(market, narrow, execution, progress).run();
 }
 
 AuctionLevel Auction64(Market<std::int64_t>& market, std::int64_t epsilon, const Execution& execution,
                        ProgressMeter& progress) {
-  return market.square ? auction_level<std::int64_t, true>(market, epsilon, execution, progress)
-                       : auction_level<std::int64_t, false>(market, epsilon, execution, progress);
+  return market.square ? Auction<std::int64_t, true>(market, epsilon, execution, progress).run()
+                       : Auction<std::int64_t, false>(market, epsilon, execution, progress).run();
 }
 
 }  // namespace HWY_NAMESPACE

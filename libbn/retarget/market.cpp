@@ -10,8 +10,8 @@ Market<T>::Market(const Grid<std::int32_t>& levels, const RetargetOptions& optio
       row_level(static_cast<std::size_t>(layout.cells())),
       column_level(row_level.size()),
       price(row_level.size(), options.wrap ? T{0} : kBlocked),
-      column_of(row_level.size(), kUnassigned),
-      row_of(row_level.size(), kUnassigned) {
+      holder(row_level.size(), Holder{kUnassigned, 0}),
+      column_of(row_level.size(), kUnassigned) {
   const Grid<std::int32_t> from = shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
   const Grid<std::int32_t> onto = shifted(levels, options.motion.x, options.motion.y);
   layout.for_each_pixel([&](std::int32_t cell, int x, int y) {
@@ -22,14 +22,25 @@ Market<T>::Market(const Grid<std::int32_t>& levels, const RetargetOptions& optio
 }
 
 template <class T>
+void Market<T>::find_columns() {
+  std::fill(column_of.begin(), column_of.end(), kUnassigned);
+  layout.for_each_pixel([&](std::int32_t column, int, int) {
+    const std::int32_t row = holder[static_cast<std::size_t>(column)].row;
+    if (row != kUnassigned) column_of[static_cast<std::size_t>(row)] = column;
+  });
+}
+
+template <class T>
 void Market<T>::refine(int level_factor) {
   for (std::int32_t& level : row_level) level *= level_factor;
+  for (Holder& h : holder) h.level *= level_factor;
   for (std::int32_t& level : column_level) level *= level_factor;
 }
 
 template <class T>
 void Market<T>::coarsen(int level_divisor) {
   for (std::int32_t& level : row_level) level /= level_divisor;
+  for (Holder& h : holder) h.level /= level_divisor;
   for (std::int32_t& level : column_level) level /= level_divisor;
   for (T& p : price) {
     if (p != kBlocked) p = (p + kPriceScale / 2) >> kPriceScaleBits;
@@ -53,7 +64,8 @@ Grid<Offset> Market<T>::moves(const RetargetOptions& options) const {
     for (int x = 0; x < width; ++x) {
       const int q_x = wrap(std::int64_t{x} + options.step.x, width);
       const std::int32_t column = column_of[static_cast<std::size_t>(layout.cell(q_x, q_y))];
-      Offset k{layout.x_of(column) - q_x, layout.y_of(column) - q_y};
+      const Offset w = layout.position(column);
+      Offset k{w.x - q_x, w.y - q_y};
       if (layout.wrapped()) k = {wrap_centred(k.x, width), wrap_centred(k.y, height)};
       move(x, y) = {k.x + options.motion.x, k.y + options.motion.y};
     }

@@ -32,7 +32,8 @@ template <class T, bool kSquare>
 class PathSearch {
  public:
   PathSearch(Market<T>& market, const Execution& execution)
-      : market_(market), execution_(execution), window_(market), free_rows_(free_discontent_rows(window_, market, T{0})) {
+      : market_(market), execution_(execution), window_(market) {
+    free_discontent_rows(window_, market, T{0}, {0, 0}, market.layout.size(), free_rows_);
     if (free_rows_.empty()) return;
     const auto cells = static_cast<std::size_t>(market.layout.cells());
     distance_.resize(cells);
@@ -72,16 +73,15 @@ class PathSearch {
     free_columns_.clear();
     later_.clear();
     for (std::size_t tree = 0; tree < free_rows_.size(); ++tree) {
-      const std::int32_t row = free_rows_[tree];
+      const Holder row = market_.as_holder(free_rows_[tree]);
       reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree), limit);
     }
     T base = 0;
     for (std::size_t next = 0;;) {
       for (; next < settled_.size(); ++next) {
         const std::int32_t column = settled_[next];
-        const std::int32_t row = market_.row_of[static_cast<std::size_t>(column)];
-        const T paid = market_.cost(row, column) + market_.price[static_cast<std::size_t>(column)];
-        reach_from(row, base, paid, root_[static_cast<std::size_t>(column)], limit);
+        const auto at = static_cast<std::size_t>(column);
+        reach_from(market_.holder[at], base, market_.paid(column), root_[at], limit);
         if (next % 8192 == 0) throw_if_stopped(execution_);
       }
       while (!later_.empty() && stale(later_.front())) pop_later();
@@ -101,14 +101,14 @@ class PathSearch {
   }
 
   /// Offers the columns of `row`, itself at distance `base` and paying `paid`, their distance through it.
-  HWY_INLINE void reach_from(std::int32_t row, T base, T paid, std::int32_t tree, T limit) {
+  HWY_INLINE void reach_from(Holder row, T base, T paid, std::int32_t tree, T limit) {
     const typename Window<T, kSquare>::D d;
     const auto too_far = hn::Set(d, static_cast<T>(limit + 1));
     const auto offset = hn::Set(d, static_cast<T>(base - paid));
-    const auto level = window_.row_level(row);
+    const auto level = hn::Set(d, T{row.level});
     for (const Run& run : window_.runs()) {
-      const auto reached = hn::Add(window_.values(level, row, run), offset);
-      const auto known = hn::LoadU(d, distance_.data() + static_cast<std::size_t>(row + run.shift));
+      const auto reached = hn::Add(window_.values(level, row.row, run), offset);
+      const auto known = hn::LoadU(d, distance_.data() + static_cast<std::size_t>(row.row + run.shift));
       const auto nearer = hn::And(hn::Lt(reached, hn::Min(known, too_far)),
                                   hn::FirstN(d, static_cast<std::size_t>(run.columns)));
       if (HWY_LIKELY(hn::AllFalse(d, nearer))) continue;
@@ -120,7 +120,7 @@ class PathSearch {
       std::memcpy(&bits, bytes, sizeof(bits));
       for (; bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctzll(bits);
-        reach(market_.layout.home(row + run.shift + lane), row, distances[lane], base, tree, limit);
+        reach(market_.layout.home(row.row + run.shift + lane), row.row, distances[lane], base, tree, limit);
       }
     }
   }
@@ -131,7 +131,7 @@ class PathSearch {
     market_.layout.store(distance_, column, distance);
     parent_[at] = row;
     root_[at] = tree;
-    if (market_.row_of[at] == kUnassigned) {
+    if (market_.holder[at].row == kUnassigned) {
       if (first) free_columns_.push_back(column);
     } else if (distance == base && distance < limit) {
       settled_.push_back(column);
@@ -169,7 +169,8 @@ class PathSearch {
       for (std::int32_t row = kUnassigned; row != free_rows_[tree];) {
         row = parent_[static_cast<std::size_t>(column)];
         const std::int32_t given_up = market_.column_of[static_cast<std::size_t>(row)];
-        market_.assign(row, column);
+        market_.column_of[static_cast<std::size_t>(row)] = column;
+        market_.holder[static_cast<std::size_t>(column)] = market_.as_holder(row);
         column = given_up;
       }
     }

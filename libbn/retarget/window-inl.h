@@ -52,8 +52,6 @@ class Window {
     return market_.layout.home(row + shifts_[static_cast<std::size_t>(position)]);
   }
 
-  V row_level(std::int32_t row) const { return hn::Set(D(), T{market_.row_level[static_cast<std::size_t>(row)]}); }
-
   /// cost + price of the columns of a run; what lies beyond its end is undefined.
   HWY_INLINE V values(V row_level, std::int32_t row, const Run& run) const {
     const auto first = static_cast<std::size_t>(row + run.shift);
@@ -76,13 +74,19 @@ class Window {
     std::int32_t position;  ///< of `least`; the lowest if several are
   };
 
-  HWY_INLINE Best cheapest(std::int32_t row) const {
+  HWY_INLINE Best cheapest(Holder who) const {
     const D d;
     const V blocked = hn::Set(d, Market<T>::kBlocked);
-    const V level = row_level(row);
+    const V level = hn::Set(d, T{who.level});
     V first = blocked, second = blocked, position = hn::Zero(d);
+    std::int32_t columns = 0;
+    auto inside = hn::FirstN(d, 0);
     for (const Run& run : runs_) {
-      const V value = hn::IfThenElse(hn::FirstN(d, static_cast<std::size_t>(run.columns)), values(level, row, run), blocked);
+      if (run.columns != columns) {  // most windows need one mask for all runs
+        columns = run.columns;
+        inside = hn::FirstN(d, static_cast<std::size_t>(columns));
+      }
+      const V value = hn::IfThenElse(inside, values(level, who.row, run), blocked);
       second = hn::Min(second, hn::Max(first, value));
       position = hn::IfThenElse(hn::Lt(value, first), hn::Set(d, T{run.position}), position);
       first = hn::Min(first, value);
@@ -100,25 +104,23 @@ class Window {
   std::vector<std::int32_t> shifts_;
 };
 
-/// Frees the rows whose column is more than `slack` above their cheapest. Returns all free rows, in order.
+/// With column_of up to date: frees the rows of a rectangle whose column is more than `slack` above their cheapest, and appends all free
+/// rows of the rectangle to `free_rows`, in index order.
 template <class T, bool kSquare>
-std::vector<std::int32_t> free_discontent_rows(const Window<T, kSquare>& window, Market<T>& market, T slack) {
-  std::vector<std::int32_t> free_rows;
-  const auto [width, height] = market.layout.size();
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
+void free_discontent_rows(const Window<T, kSquare>& window, Market<T>& market, T slack, Offset origin, Extent size,
+                          std::vector<std::int32_t>& free_rows) {
+  for (int y = origin.y; y < origin.y + size.height; ++y) {
+    for (int x = origin.x; x < origin.x + size.width; ++x) {
       const std::int32_t row = market.layout.cell(x, y);
       std::int32_t& column = market.column_of[static_cast<std::size_t>(row)];
       if (column != kUnassigned) {
-        const T paid = market.cost(row, column) + market.price[static_cast<std::size_t>(column)];
-        if (paid <= window.cheapest(row).least + slack) continue;
-        market.row_of[static_cast<std::size_t>(column)] = kUnassigned;
+        if (market.paid(column) <= window.cheapest(market.as_holder(row)).least + slack) continue;
+        market.holder[static_cast<std::size_t>(column)].row = kUnassigned;
         column = kUnassigned;
       }
       free_rows.push_back(row);
     }
   }
-  return free_rows;
 }
 
 }  // namespace HWY_NAMESPACE
