@@ -105,24 +105,23 @@ class PathSearch {
     const typename Window<T, kSquare>::D d;
     const auto too_far = hn::Set(d, static_cast<T>(limit + 1));
     const auto offset = hn::Set(d, static_cast<T>(base - paid));
-    const auto level = hn::Set(d, T{row.level});
-    for (const Run& run : window_.runs()) {
-      const auto reached = hn::Add(window_.values(level, row.row, run), offset);
-      const auto known = hn::LoadU(d, distance_.data() + static_cast<std::size_t>(row.row + run.shift));
-      const auto nearer = hn::And(hn::Lt(reached, hn::Min(known, too_far)),
-                                  hn::FirstN(d, static_cast<std::size_t>(run.columns)));
-      if (HWY_LIKELY(hn::AllFalse(d, nearer))) continue;
-      HWY_ALIGN T distances[hn::MaxLanes(typename Window<T, kSquare>::D())];
-      hn::Store(reached, d, distances);
+    const T* distances = distance_.data() + row.row;
+    window_.for_each_run(row, [&](const Run& run, auto columns, auto seen) HWY_ATTR {
+      const auto reached = hn::Add(seen, offset);
+      const auto known = hn::LoadU(d, distances + run.shift);
+      const auto nearer = hn::And(hn::Lt(reached, hn::Min(known, too_far)), columns);
+      if (HWY_LIKELY(hn::AllFalse(d, nearer))) return;
+      HWY_ALIGN T through[hn::MaxLanes(typename Window<T, kSquare>::D())];
+      hn::Store(reached, d, through);
       std::uint8_t bytes[8] = {};
       hn::StoreMaskBits(d, nearer, bytes);
       std::uint64_t bits;
       std::memcpy(&bits, bytes, sizeof(bits));
       for (; bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctzll(bits);
-        reach(market_.layout.home(row.row + run.shift + lane), row.row, distances[lane], base, tree, limit);
+        reach(market_.layout.home(row.row + run.shift + lane), row.row, through[lane], base, tree, limit);
       }
-    }
+    });
   }
 
   void reach(std::int32_t column, std::int32_t row, T distance, T base, std::int32_t tree, T limit) {

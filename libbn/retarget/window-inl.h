@@ -19,11 +19,16 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A run of at most a vector's lanes of columns in one line of the window.
+/// At most a vector's lanes of columns in one line of the window.
 struct Run {
   std::int32_t shift;     ///< from a row's cell to the cell of the run's first column
-  std::int32_t columns;   ///< 1..lanes
   std::int32_t position;  ///< of the first column among all columns of the window
+};
+
+/// Consecutive runs with the same number of columns; most windows are one group.
+struct RunGroup {
+  int columns;  ///< 1..lanes
+  std::size_t begin, end;
 };
 
 template <class T, bool kSquare>
@@ -39,33 +44,34 @@ class Window {
       const std::int32_t origin = line.y * market.layout.stride();
       for (int x = line.x_low; x <= line.x_high; x += lanes) {
         const int columns = std::min(lanes, line.x_high - x + 1);
-        runs_.push_back({origin + x, columns, position});
+        runs_.push_back({origin + x, position});
+        if (groups_.empty() || groups_.back().columns != columns) groups_.push_back({columns, runs_.size() - 1, 0});
+        groups_.back().end = runs_.size();
         for (int i = 0; i < columns; ++i) shifts_.push_back(origin + x + i);
         position += columns;
       }
     }
   }
 
-  const std::vector<Run>& runs() const { return runs_; }
+  /// Calls visit(run, mask of its columns, cost + price of each; what lies beyond the mask is undefined).
+  template <class Visit>
+  HWY_INLINE void for_each_run(Holder who, Visit&& visit) const {
+    const D d;
+    const V row_level = hn::Set(d, T{who.level});
+    const std::int32_t* levels = market_.column_level.data() + who.row;
+    const T* prices = market_.price.data() + who.row;
+    const Run* runs = runs_.data();
+    for (const RunGroup& group : groups_) {
+      const auto columns = hn::FirstN(d, static_cast<std::size_t>(group.columns));
+      for (const Run* run = runs + group.begin; run != runs + group.end; ++run) {
+        visit(*run, columns, hn::Add(hn::LoadU(d, prices + run->shift), costs(row_level, levels + run->shift)));
+      }
+    }
+  }
+
   /// The column at a position of the window of `row`.
   std::int32_t column(std::int32_t row, std::int32_t position) const {
     return market_.layout.home(row + shifts_[static_cast<std::size_t>(position)]);
-  }
-
-  /// cost + price of the columns of a run; what lies beyond its end is undefined.
-  HWY_INLINE V values(V row_level, std::int32_t row, const Run& run) const {
-    const auto first = static_cast<std::size_t>(row + run.shift);
-    const D d;
-    const V price = hn::LoadU(d, market_.price.data() + first);
-    const std::int32_t* levels = market_.column_level.data() + first;
-    if constexpr (sizeof(T) == sizeof(std::int32_t)) {
-      const V difference = hn::Sub(row_level, hn::LoadU(d, levels));
-      return hn::Add(price, kSquare ? hn::Mul(difference, difference) : hn::Abs(difference));
-    } else {
-      const hn::Rebind<std::int32_t, D> half;
-      const V difference = hn::Sub(row_level, hn::PromoteTo(d, hn::LoadU(half, levels)));
-      return hn::Add(price, kSquare ? hn::Mul(difference, difference) : hn::Max(difference, hn::Neg(difference)));
-    }
   }
 
   struct Best {
@@ -77,20 +83,13 @@ class Window {
   HWY_INLINE Best cheapest(Holder who) const {
     const D d;
     const V blocked = hn::Set(d, Market<T>::kBlocked);
-    const V level = hn::Set(d, T{who.level});
     V first = blocked, second = blocked, position = hn::Zero(d);
-    std::int32_t columns = 0;
-    auto inside = hn::FirstN(d, 0);
-    for (const Run& run : runs_) {
-      if (run.columns != columns) {  // most windows need one mask for all runs
-        columns = run.columns;
-        inside = hn::FirstN(d, static_cast<std::size_t>(columns));
-      }
-      const V value = hn::IfThenElse(inside, values(level, who.row, run), blocked);
+    for_each_run(who, [&](const Run& run, auto columns, V seen) HWY_ATTR {
+      const V value = hn::IfThenElse(columns, seen, blocked);
       second = hn::Min(second, hn::Max(first, value));
       position = hn::IfThenElse(hn::Lt(value, first), hn::Set(d, T{run.position}), position);
       first = hn::Min(first, value);
-    }
+    });
     const V least = hn::MinOfLanes(d, first);
     const V place = hn::IfThenElse(hn::Eq(first, least), hn::Add(position, hn::Iota(d, T{0})), blocked);
     const V lowest = hn::MinOfLanes(d, place);
@@ -99,8 +98,21 @@ class Window {
   }
 
  private:
+  HWY_INLINE static V costs(V row_level, const std::int32_t* levels) {
+    const D d;
+    if constexpr (sizeof(T) == sizeof(std::int32_t)) {
+      const V difference = hn::Sub(row_level, hn::LoadU(d, levels));
+      return kSquare ? hn::Mul(difference, difference) : hn::Abs(difference);
+    } else {
+      const hn::Rebind<std::int32_t, D> half;
+      const V difference = hn::Sub(row_level, hn::PromoteTo(d, hn::LoadU(half, levels)));
+      return kSquare ? hn::Mul(difference, difference) : hn::Max(difference, hn::Neg(difference));
+    }
+  }
+
   const Market<T>& market_;
   std::vector<Run> runs_;
+  std::vector<RunGroup> groups_;
   std::vector<std::int32_t> shifts_;
 };
 
