@@ -79,7 +79,7 @@ struct Market {
 };
 
 /// Prices and costs of the auction are in 1/kPriceScale of a unit of cost.
-inline constexpr int kPriceScaleBits = 6;
+inline constexpr int kPriceScaleBits = 4;
 inline constexpr int kPriceScale = 1 << kPriceScaleBits;
 
 /// What levels are multiplied by so that costs are multiplied by kPriceScale.

@@ -2,14 +2,15 @@
 //
 // The state is a partial assignment with integer prices in which each assigned row holds a column that is
 // cheapest for it. The reduced cost of an arc is its cost + price less the row's cheapest: 0 on assigned
-// arcs, at least 0 on all. A phase grows shortest-path trees (Dijkstra) from all free rows together, through
+// arcs, at least 0 on all. A search grows shortest-path trees (Dijkstra) from some free rows together, through
 // columns into the rows that hold them, up to a length `limit`. Raising the price of each column
 // reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then each
-// tree that has reached a free column assigns its root along the path. The trees share no column, so
-// all of them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
+// tree that has reached a free column assigns its root along the path. The trees share no column, so all of
+// them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
 //
-// After an auction nearly all free rows are one unit of cost from content, so limit = 1 and most searches
-// walk along arcs of cost 0 only; limit doubles when a phase assigns few of the rows that are left.
+// After an auction nearly all free rows are one unit of cost from content: a few searches from all of them at
+// once, with limit 1, walk along arcs of cost 0 and assign most. Of the last ones a single tree soon floods
+// the tile and takes all the free columns; so these search one by one and stop at the first free column.
 //
 // H. W. Kuhn, "The Hungarian method for the assignment problem", 1955; R. Jonker and A. Volgenant, "A shortest
 // augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987; A. V. Goldberg
@@ -21,6 +22,7 @@
 #include <hwy/foreach_target.h>
 
 #include <cstring>
+#include <span>
 
 #include "retarget/window-inl.h"
 
@@ -36,26 +38,18 @@ class PathSearch {
     free_discontent_rows(window_, market, T{0}, {0, 0}, market.layout.size(), free_rows_);
     if (free_rows_.empty()) return;
     const auto cells = static_cast<std::size_t>(market.layout.cells());
-    distance_.resize(cells);
+    distance_.assign(cells, kUnreached);
     parent_.resize(cells);
     root_.resize(cells);
   }
 
   Outcome run() {
-    constexpr T kMostLimit = Market<T>::kMaxPrice / 4;
-    T limit = 1;
-    while (!free_rows_.empty()) {
-      grow_trees(limit);
-      if (!raise_prices(limit)) return Outcome::overflow;
-      const std::size_t before = free_rows_.size();
-      augment();
-      if ((before - free_rows_.size()) * 4 < before) limit = std::min<T>(limit * 2, kMostLimit);
-    }
-    return Outcome::done;
+    return assign_together() && assign_one_by_one() ? Outcome::done : Outcome::overflow;
   }
 
  private:
   static constexpr T kUnreached = Market<T>::kBlocked;
+  static constexpr T kMostLimit = Market<T>::kMaxPrice / 4;
 
   /// A column reached at a distance beyond the one being settled; `order` makes the order total.
   struct Later {
@@ -67,25 +61,57 @@ class PathSearch {
     }
   };
 
-  void grow_trees(T limit) {
-    std::fill(distance_.begin(), distance_.end(), kUnreached);
+  /// Searches from all free rows at once while that assigns a good part of them. False on overflow.
+  bool assign_together() {
+    T limit = 1;
+    while (!free_rows_.empty()) {
+      grow_trees(free_rows_, limit, false);
+      const std::size_t before = free_rows_.size(), reached = free_columns_.size();
+      if (!raise_prices()) return false;
+      augment(free_rows_);
+      std::erase_if(free_rows_, [&](std::int32_t row) { return market_.column_of[static_cast<std::size_t>(row)] != kUnassigned; });
+      if ((before - free_rows_.size()) * 4 >= before) continue;
+      if (reached * 2 >= before || limit >= kMostLimit / 2) return true;
+      limit *= 2;
+    }
+    return true;
+  }
+
+  /// Searches from each free row in turn, up to the nearest free column. False on overflow.
+  bool assign_one_by_one() {
+    for (const std::int32_t root : free_rows_) {
+      for (T limit = 1; market_.column_of[static_cast<std::size_t>(root)] == kUnassigned; limit = std::min<T>(limit * 2, kMostLimit)) {
+        grow_trees({&root, 1}, limit, true);
+        if (!raise_prices()) return false;
+        augment({&root, 1});
+      }
+    }
+    return true;
+  }
+
+  /// Grows trees from `roots` up to length `limit`, or to the first free column; limit_ is the length reached.
+  void grow_trees(std::span<const std::int32_t> roots, T limit, bool to_first_free) {
+    for (const std::int32_t column : reached_) market_.layout.store(distance_, column, kUnreached);
+    reached_.clear();
     settled_.clear();
     free_columns_.clear();
     later_.clear();
-    for (std::size_t tree = 0; tree < free_rows_.size(); ++tree) {
-      const Holder row = market_.as_holder(free_rows_[tree]);
-      reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree), limit);
+    limit_ = limit;
+    to_first_free_ = to_first_free;
+    for (std::size_t tree = 0; tree < roots.size(); ++tree) {
+      const Holder row = market_.as_holder(roots[tree]);
+      reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree));
     }
     T base = 0;
     for (std::size_t next = 0;;) {
-      for (; next < settled_.size(); ++next) {
+      for (; next < settled_.size() && base < limit_; ++next) {
         const std::int32_t column = settled_[next];
         const auto at = static_cast<std::size_t>(column);
-        reach_from(market_.holder[at], base, market_.paid(column), root_[at], limit);
+        reach_from(market_.holder[at], base, market_.paid(column), root_[at]);
         if (next % 8192 == 0) throw_if_stopped(execution_);
       }
       while (!later_.empty() && stale(later_.front())) pop_later();
-      if (later_.empty()) return;
+      if (later_.empty() || later_.front().distance >= limit_) return;
       base = later_.front().distance;
       while (!later_.empty() && later_.front().distance == base) {
         if (!stale(later_.front())) settled_.push_back(later_.front().column);
@@ -101,9 +127,9 @@ class PathSearch {
   }
 
   /// Offers the columns of `row`, itself at distance `base` and paying `paid`, their distance through it.
-  HWY_INLINE void reach_from(Holder row, T base, T paid, std::int32_t tree, T limit) {
+  HWY_INLINE void reach_from(Holder row, T base, T paid, std::int32_t tree) {
     const typename Window<T, kSquare>::D d;
-    const auto too_far = hn::Set(d, static_cast<T>(limit + 1));
+    const auto too_far = hn::Set(d, static_cast<T>(limit_ + 1));
     const auto offset = hn::Set(d, static_cast<T>(base - paid));
     const T* distances = distance_.data() + row.row;
     window_.for_each_run(row, [&](const Run& run, auto columns, auto seen) HWY_ATTR {
@@ -119,53 +145,50 @@ class PathSearch {
       std::memcpy(&bits, bytes, sizeof(bits));
       for (; bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctzll(bits);
-        reach(market_.layout.home(row.row + run.shift + lane), row.row, through[lane], base, tree, limit);
+        reach(market_.layout.home(row.row + run.shift + lane), row.row, through[lane], base, tree);
       }
     });
   }
 
-  void reach(std::int32_t column, std::int32_t row, T distance, T base, std::int32_t tree, T limit) {
+  void reach(std::int32_t column, std::int32_t row, T distance, T base, std::int32_t tree) {
+    if (distance > limit_) return;  // the limit has come nearer since
     const auto at = static_cast<std::size_t>(column);
     const bool first = distance_[at] == kUnreached;
+    if (first) reached_.push_back(column);
     market_.layout.store(distance_, column, distance);
     parent_[at] = row;
     root_[at] = tree;
     if (market_.holder[at].row == kUnassigned) {
       if (first) free_columns_.push_back(column);
-    } else if (distance == base && distance < limit) {
+      if (to_first_free_) limit_ = distance;
+    } else if (distance == limit_) {
+      return;  // goes no further
+    } else if (distance == base) {
       settled_.push_back(column);
-    } else if (distance < limit) {
+    } else {
       later_.push_back({distance, order_++, column});
       std::push_heap(later_.begin(), later_.end());
     }
   }
 
-  bool raise_prices(T limit) {
-    const auto raise = [&](std::int32_t column) {
+  bool raise_prices() {
+    for (const std::int32_t column : reached_) {
       const T distance = distance_[static_cast<std::size_t>(column)];
-      if (distance >= limit) return true;
+      if (distance >= limit_) continue;
       const T price = market_.price[static_cast<std::size_t>(column)];
-      if (price > market_.price_limit - (limit - distance)) return false;
-      market_.layout.store(market_.price, column, static_cast<T>(price + (limit - distance)));
-      return true;
-    };
-    for (const std::int32_t column : settled_) {
-      if (!raise(column)) return false;
-    }
-    for (const std::int32_t column : free_columns_) {
-      if (!raise(column)) return false;
+      if (price > market_.price_limit - (limit_ - distance)) return false;
+      market_.layout.store(market_.price, column, static_cast<T>(price + (limit_ - distance)));
     }
     return true;
   }
 
-  /// Assigns the root of each tree that has reached a free column, along the path to the first it met.
-  void augment() {
-    std::vector<bool> assigned(free_rows_.size(), false);
+  /// Assigns the root of each tree that has reached a free column, along the path to one within the limit.
+  void augment(std::span<const std::int32_t> roots) {
     for (std::int32_t column : free_columns_) {
-      const auto tree = static_cast<std::size_t>(root_[static_cast<std::size_t>(column)]);
-      if (assigned[tree]) continue;
-      assigned[tree] = true;
-      for (std::int32_t row = kUnassigned; row != free_rows_[tree];) {
+      const auto at = static_cast<std::size_t>(column);
+      const std::int32_t root = roots[static_cast<std::size_t>(root_[at])];
+      if (distance_[at] > limit_ || market_.column_of[static_cast<std::size_t>(root)] != kUnassigned) continue;
+      for (std::int32_t row = kUnassigned; row != root;) {
         row = parent_[static_cast<std::size_t>(column)];
         const std::int32_t given_up = market_.column_of[static_cast<std::size_t>(row)];
         market_.column_of[static_cast<std::size_t>(row)] = column;
@@ -173,24 +196,22 @@ class PathSearch {
         column = given_up;
       }
     }
-    std::size_t left = 0;
-    for (std::size_t tree = 0; tree < free_rows_.size(); ++tree) {
-      if (!assigned[tree]) free_rows_[left++] = free_rows_[tree];
-    }
-    free_rows_.resize(left);
   }
 
   Market<T>& market_;
   const Execution& execution_;
   Window<T, kSquare> window_;
-  std::vector<std::int32_t> free_rows_;     // the trees' roots
+  std::vector<std::int32_t> free_rows_;
   std::vector<T> distance_;                 // per column
   std::vector<std::int32_t> parent_;        // per column: the row it was reached from
-  std::vector<std::int32_t> root_;          // per column: the tree
+  std::vector<std::int32_t> root_;          // per column: the tree, by its root's place
+  std::vector<std::int32_t> reached_;       // all columns with a distance
   std::vector<std::int32_t> settled_;       // assigned columns nearer than the limit, by distance
   std::vector<std::int32_t> free_columns_;  // reached, in order of discovery
   std::vector<Later> later_;
   std::uint32_t order_ = 0;
+  T limit_ = 0;
+  bool to_first_free_ = false;
 };
 
 Outcome Complete32(Market<std::int32_t>& market, const Execution& execution) {
