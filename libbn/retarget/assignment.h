@@ -8,7 +8,7 @@
 // prices prove it.
 //
 // Three steps, one file each:
-//   auction.cpp         finds a nearly optimal assignment, fast, with prices in 1/64 of a level;
+//   auction.cpp         finds a nearly optimal assignment, fast, with prices in 1/16 of a unit of cost;
 //   shortest_paths.cpp  rounds the prices to integers, frees the rows that are not content with their
 //                       column, and assigns them again by shortest augmenting paths: exact;
 //   certificate.cpp     computes the bound afresh from the definition.
@@ -78,7 +78,8 @@ struct Market {
   Grid<Offset> moves(const RetargetOptions& options) const;
 };
 
-/// Prices and costs of the auction are in 1/kPriceScale of a unit of cost.
+/// Prices and costs of the auction are in 1/kPriceScale of a unit of cost. Finer prices leave fewer rows to
+/// the exact finish but cost more bids; 1/16 is quickest. An even number of bits, so that levels can be scaled for L2.
 inline constexpr int kPriceScaleBits = 4;
 inline constexpr int kPriceScale = 1 << kPriceScaleBits;
 
@@ -97,6 +98,7 @@ struct AuctionLevel {
   Outcome outcome;
   std::int64_t epsilon;
 };
+/// Reports the tile's area as finished work.
 template <class T>
 AuctionLevel run_auction(Market<T>& market, std::int64_t epsilon, const Execution& execution, ProgressMeter& progress);
 

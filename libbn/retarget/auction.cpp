@@ -7,9 +7,12 @@
 // epsilons settle the prices roughly in few bids; each finer level starts from them and frees only the rows
 // that are not within the new epsilon.
 //
-// Following the outbid row at once keeps the work in a few cache lines; starting in index order keeps it in
-// the cache. A level that makes more bids than kPatience a row is in a price war, rows outbidding each other
-// by epsilon over a scarce column: epsilon is raised until it ends, which costs no correctness.
+// The outbid row bids next while its part of the tile is in the cache; for the same reason rows start block by
+// block. Each bid waits for the one before it in its chain, so a few chains, each with its own share of the
+// block's rows, take turns: the processor overlaps their waits. The order is fixed, hence the result.
+//
+// A level that makes more bids than kPatience a row is in a price war, rows outbidding each other by epsilon
+// over scarce columns: epsilon is raised until it ends, which costs no correctness.
 //
 // D. P. Bertsekas, "The auction algorithm: a distributed relaxation method for the assignment problem",
 // Annals of Operations Research 14, 1988.
@@ -43,21 +46,21 @@ class Auction {
     // All rows are looked at before the first bid: a freed row's column draws its neighbours' chains to an end.
     std::vector<std::int32_t> free_rows;
     std::vector<std::size_t> block_ends;
+    std::vector<std::int64_t> block_areas;
     for (int y = 0; y < height; y += kBlock) {
       for (int x = 0; x < width; x += kBlock) {
-        free_discontent_rows(window_, market_, epsilon_, {x, y}, {std::min(kBlock, width - x), std::min(kBlock, height - y)},
-                             free_rows);
+        const Extent size{std::min(kBlock, width - x), std::min(kBlock, height - y)};
+        free_discontent_rows(window_, market_, epsilon_, {x, y}, size, free_rows);
         block_ends.push_back(free_rows.size());
+        block_areas.push_back(size.area());
         throw_if_stopped(execution_);
       }
     }
     Outcome outcome = Outcome::done;
-    std::size_t begin = 0;
-    for (const std::size_t end : block_ends) {
-      outcome = settle(std::span(free_rows).subspan(begin, end - begin));
+    for (std::size_t block = 0, begin = 0; block < block_ends.size(); begin = block_ends[block++]) {
+      outcome = settle(std::span(free_rows).subspan(begin, block_ends[block] - begin));
       if (outcome != Outcome::done) break;
-      progress_.advance(kBlock * kBlock);
-      begin = end;
+      progress_.advance(static_cast<std::uint64_t>(block_areas[block]));
     }
     market_.find_columns();
     return {outcome, epsilon_};

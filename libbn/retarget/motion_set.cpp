@@ -1,4 +1,9 @@
+// The motion variants are problems of their own, solved side by side, one on each thread: the result cannot
+// depend on how many there are.
+
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "core/progress.h"
 #include "retarget/problem.h"
@@ -22,6 +27,11 @@ std::vector<RetargetTile> solve_motion_set(const Grid<std::int32_t>& levels, con
 
   const int side = 2 * range + 1;
   const std::int64_t count = std::int64_t{side} * side;
+  const auto at_once = static_cast<std::uint64_t>(std::min<std::int64_t>(thread_count(execution), count));
+  check_memory(execution,
+               at_once * exact_memory_bytes(levels.size(), options) +
+                   static_cast<std::uint64_t>(count) * levels.count() * sizeof(Offset),
+               "motion set");
   std::vector<RetargetTile> tiles(static_cast<std::size_t>(count));
   ProgressMeter progress(execution, static_cast<std::uint64_t>(count));
   parallel_for(execution, count, [&](std::int64_t i) {

@@ -81,6 +81,14 @@ std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options) {
   return rows;
 }
 
+std::uint64_t exact_memory_bytes(Extent size, const RetargetOptions& options) {
+  const auto padded = [&](int length) {
+    const std::int64_t border = std::min<std::int64_t>(options.radius, options.wrap ? (length + 1) / 2 : length - 1);
+    return static_cast<std::uint64_t>(length + 2 * border);
+  };
+  return padded(size.width) * padded(size.height) * 64;
+}
+
 Grid<std::int32_t> shifted(const Grid<std::int32_t>& levels, std::int64_t x, std::int64_t y) {
   const auto [width, height] = levels.size();
   Grid<std::int32_t> result(levels.size());

@@ -41,6 +41,9 @@ class PathSearch {
     distance_.assign(cells, kUnreached);
     parent_.resize(cells);
     root_.resize(cells);
+    // Reserved at their largest: growth by doubling would take more at its peak.
+    reached_.reserve(static_cast<std::size_t>(market.layout.size().area()));
+    settled_.reserve(reached_.capacity());
   }
 
   Outcome run() {

@@ -20,6 +20,17 @@ std::int64_t first_epsilon(const Grid<std::int32_t>& levels, const RetargetOptio
   return std::max<std::int64_t>(1, options.metric == Metric::l2 ? spacing * spacing : spacing);
 }
 
+/// Cells are counted in 32 bits; a tile of that many would need 128 GiB.
+void check_cells(Extent size, const RetargetOptions& options) {
+  constexpr std::uint64_t kMostCells = (std::uint64_t{1} << 31) - 256;
+  if (exact_memory_bytes(size, options) / 64 <= kMostCells) return;
+  throw Error({.code = ErrorCode::over_limit,
+               .what = fmt::format("a tile of {}x{} pixels", size.width, size.height),
+               .where = "retarget",
+               .limit = "2^31 pixels with their border",
+               .remedy = "use a smaller tile"});
+}
+
 /// Whether energy - bound <= gap * bound.
 bool close_enough(std::int64_t energy, std::int64_t bound, double gap) {
   return static_cast<double>(energy - bound) <= gap * static_cast<double>(bound);
@@ -74,10 +85,14 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
   check_options(options);
   const std::int64_t largest_cost = check_levels(levels, options.metric);
   thread_count(execution);
-  check_memory(execution, levels.count() * 64, "retarget");
+  check_memory(execution, exact_memory_bytes(levels.size(), options), "retarget");
+  check_cells(levels.size(), options);
   throw_if_stopped(execution);
 
-  ProgressMeter progress(execution, levels.count() * 3);
+  // Each level of the auction and the exact finish count as one pass over the tile.
+  int passes = 2;
+  for (std::int64_t epsilon = first_epsilon(levels, options); epsilon > 1; epsilon /= 4) ++passes;
+  ProgressMeter progress(execution, levels.count() * static_cast<std::uint64_t>(passes));
   std::optional<RetargetTile> tile;
   if (width != PriceWidth::bits64 && largest_cost * kPriceScale < Market<std::int32_t>::kMaxCost) {
     tile = solve_with<std::int32_t>(levels, options, execution, progress);
