@@ -43,6 +43,7 @@ struct SetView {
   const JobRecord* job;
   const RetargetEntry* entry;
   Levels levels;
+  std::string source;                 ///< what it is made of
   std::optional<Grid<Offset>> tile;   ///< R_0, scatter
   std::optional<Grid<Offset>> atlas;  ///< all motions as stored
 };
@@ -97,7 +98,7 @@ class Sheet {
     const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
     const double span = std::max<double>(*high - *low, 1.0), pixels = static_cast<double>(levels.count());
 
-    panel(0, 0, "source D", fmt::format("{} levels", view.levels.distinct),
+    panel(0, 0, "source D", view.source,
           coloured(size, [&](int x, int y) { return grey((levels(x, y) - *low) / span); }));
     panel(1, 0, "|D(u)-D(u+d)|", energy_text(plain.start_energy, pixels),
           residual(levels, Grid<Offset>(size), step, 1.0 / span));
@@ -271,8 +272,12 @@ SetView view_of(const Recipe& recipe, const RetargetEntry& entry, const JobRecor
   SetView view{.job = &job,
                .entry = &entry,
                .levels = read_source(source_path(recipe, entry, out_dir), entry.channel, execution).levels,
+               .source = "",
                .tile = std::nullopt,
                .atlas = std::nullopt};
+  const MaskEntry* mask = mask_of(recipe, entry);
+  view.source = mask ? fmt::format("sigma {}, seed {}", mask->options.sigma_px, mask->options.seed)
+                     : fmt::format("{} levels", view.levels.distinct);
   const Extent size = view.levels.value.size();
   for (const RetargetOutput& output : entry.outputs) {
     const bool is_tile = output.kind == RetargetOutput::Kind::tile;

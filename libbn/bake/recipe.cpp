@@ -330,6 +330,12 @@ Recipe parse_recipe(std::string_view text, const std::string& name, const std::f
                  .where = fmt::format("{}:{}", name, error.source().begin.line),
                  .limit = "TOML 1.0",
                  .remedy = ""});
+  } catch (const BrokenToml&) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "cannot be read as TOML",
+                 .where = name,
+                 .limit = "TOML 1.0",
+                 .remedy = "look for a bracket, a comma or a value too many or too few"});
   }
   Recipe recipe;
   recipe.name = name;

@@ -3,7 +3,20 @@
 
 #pragma once
 
+// toml++ with its assertions turned into exceptions: with NDEBUG it takes them for granted instead, and
+// some texts break them (see toml_check.cpp). This is the only place that includes it.
+#define TOML_HEADER_ONLY 1
+#define TOML_ASSERT(expression) ::bn::require_sound_toml(static_cast<bool>(expression))
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+namespace bn {
+struct BrokenToml {};
+constexpr void require_sound_toml(bool sound) {
+  if (!sound) throw BrokenToml();
+}
+}  // namespace bn
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 #include <cstdint>
 #include <optional>

@@ -1,8 +1,10 @@
 // toml++ 3.3 (Debian 12) runs into undefined behaviour on some texts, found by the recipe fuzzer:
-//   [.a]     it takes for granted that a table header begins with a key
-//   key ä    it takes for granted that a letter such as ä, outside strings and comments, never comes up
-// A recipe needs neither, nor strings of several lines. This scan of lines, strings and comments refuses
-// all three. It need be right only up to the first mistake, because the parser is not called after one.
+//   [.a]       it takes for granted that a table header begins with a key,
+//   a = [ }    that a bracket closes what was opened,
+//   key ä      and that a letter such as ä, outside strings and comments, never comes up.
+// A recipe needs none of them, nor strings of several lines. This scan of lines, strings, comments and
+// brackets refuses them, with the line. It need be right only up to the first mistake, because the
+// parser is not called after one.
 
 #include "bake/toml_check.h"
 
@@ -22,8 +24,8 @@ bool is_header_with_key(std::string_view line) {
          c == '"' || c == '\'';
 }
 
-/// What is wrong with a line, or nothing.
-std::string_view problem_of(std::string_view line) {
+/// What is wrong with a line, or nothing. `open` holds the brackets that are open before and after it.
+std::string_view problem_of(std::string_view line, std::string& open) {
   const std::size_t first = line.find_first_not_of(kBlank);
   if (first != line.npos && line[first] == '[' && !is_header_with_key(line.substr(first))) {
     return "a table header without a key";
@@ -43,6 +45,11 @@ std::string_view problem_of(std::string_view line) {
       if (line.substr(i, 3) == std::string_view(c == '"' ? "\"\"\"" : "'''"))
         return "a string of several lines";
       quote = c;
+    } else if (c == '[' || c == '{') {
+      open += c;
+    } else if (c == ']' || c == '}') {
+      if (open.empty() || open.back() != (c == ']' ? '[' : '{')) return "a bracket that closes none";
+      open.pop_back();
     } else if (static_cast<unsigned char>(c) >= 0x7f) {
       return "a character beyond ASCII outside a string";
     }
@@ -54,10 +61,11 @@ std::string_view problem_of(std::string_view line) {
 
 void check_toml(std::string_view text, Mistakes& mistakes) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::string open;
   for (int line = 1; !text.empty(); ++line) {
     const std::string_view here = text.substr(0, text.find('\n'));
     text.remove_prefix(here.size() < text.size() ? here.size() + 1 : here.size());
-    const std::string_view problem = problem_of(here);
+    const std::string_view problem = problem_of(here, open);
     if (!problem.empty())
       mistakes.add(line, std::string(problem), "TOML 1.0, without strings of several lines");
   }

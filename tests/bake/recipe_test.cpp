@@ -110,6 +110,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             4, "size \u00e4\u0620= [16, 16]", {"a character beyond ASCII outside a string"}},  // once, too
         Mistake{3, "name = \"\"\"m\"\"\"", {"a string of several lines"}},
+        Mistake{5, "outputs = [ }", {"a bracket that closes none"}},  // once, too
         Mistake{3, "name = 'm", {"a string without its end"}},
         Mistake{2, "[mask]", {"mask is a table", "[[mask]]"}, 2},
         Mistake{3, "", {"name is missing", "1..64"}, 2},
