@@ -262,7 +262,15 @@ JobRecord make_mask(const MaskEntry& entry, const Execution& execution, const Ba
 JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, const BakeEvents& events) {
   const std::vector<JobFile> files = free_retarget_files(entry);
   check_recipes(files);
-  for (const RetargetOutput& output : entry.outputs) check_writable(output.path, SampleType::u8, 3);
+  for (const RetargetOutput& output : entry.outputs) {
+    check_writable(output.path, SampleType::u8, 3);
+    if (!is_same_file(output.path, entry.image)) continue;
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "would replace the image that it is made for",
+                 .where = output.path,
+                 .limit = "",
+                 .remedy = "write to another file"});
+  }
   const Source source = read_source(entry.image, entry.channel, execution);
   BakePlan plan;
   plan.jobs = {{.kind = JobKind::retarget, .name = entry.name, .files = {}, .estimated_seconds = 1.0}};

@@ -33,4 +33,10 @@ const MaskOutput& source_output(const MaskEntry& mask, const RetargetEntry& entr
 std::filesystem::path source_path(const Recipe& recipe, const RetargetEntry& entry,
                                   const std::filesystem::path& out_dir);
 
+/// Whether both name one existing file, by whatever path or link.
+inline bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code failed;
+  return std::filesystem::equivalent(a, b, failed) && !failed;
+}
+
 }  // namespace bn

@@ -45,6 +45,7 @@ class Planner {
     for (std::size_t i = 0; i < recipe_.masks.size(); ++i) plan_mask(static_cast<int>(i));
     for (std::size_t i = 0; i < recipe_.retargets.size(); ++i) plan_retarget(static_cast<int>(i));
     if (!recipe_.contact_sheet.empty()) plan_contact_sheet();
+    for (const RetargetEntry& entry : recipe_.retargets) check_source_survives(entry);
     mistakes_.throw_if_any();
     for (const PlannedJob& job : plan_.jobs) {
       if (!job.stands) plan_.estimated_seconds += job.estimated_seconds;
@@ -154,6 +155,19 @@ class Planner {
       job.stands = standing_retarget(entry, *source, files, earlier_, execution_).has_value();
     }
     plan_.jobs.push_back(std::move(job));
+  }
+
+  void check_source_survives(const RetargetEntry& entry) {
+    if (entry.image.empty()) return;
+    for (const PlannedJob& job : plan_.jobs) {
+      for (const std::string& file : job.files) {
+        if (!is_same_file(options_.out_dir / file, recipe_.folder / entry.image)) continue;
+        mistakes_.add(entry.line,
+                      fmt::format("retarget '{}': image '{}' would be replaced by the output '{}' of '{}'",
+                                  entry.name, entry.image, file, job.name),
+                      "", "give the output another path, or bake into another folder");
+      }
+    }
   }
 
   void plan_contact_sheet() {

@@ -63,6 +63,19 @@ TEST(Plan, NamesWhatIsWrongWithASourceImage) {
                {"a.toml:2: ", "motion 3 is larger than the tile of 6x5", "allowed: 0..2"});
 }
 
+TEST(Plan, NeverReplacesASourceImage) {
+  const TemporaryFolder out;
+  Image image{.size = {8, 8}, .channels = 1, .type = SampleType::u8, .samples = std::vector<std::byte>(64)};
+  write_image(out / "x.png", image, {});
+  const std::string before = bytes_of(out / "x.png");
+  expect_error("version = 1\n[[retarget]]\nname = 'r'\nradius = 2\nimage = 'x.png'\noutputs = ['./x.png']\n",
+               {.out_dir = out}, ErrorCode::invalid_input, {"a.toml:2: ", "would be replaced by the output"});
+  RetargetEntry entry{.name = "r", .mask = "", .image = (out / "x.png").string()};
+  entry.outputs = {{.path = entry.image}};
+  EXPECT_THROW(make_retarget(entry), Error);
+  EXPECT_EQ(bytes_of(out / "x.png"), before);
+}
+
 TEST(Plan, RefusesWhatDoesNotFitIntoMemory) {
   const TemporaryFolder out;
   expect_error("version = 1\n[[mask]]\nname = 'm'\nsize = [4096, 4096]\noutputs = ['m.png']\n",
