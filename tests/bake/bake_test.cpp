@@ -186,6 +186,16 @@ TEST(Bake, TwoBakesIntoOneFolderAreRefused) {
   EXPECT_TRUE(fs::is_empty(out));
 }
 
+TEST(Bake, AFolderThatCannotBeMadeIsAnIoError) {
+  try {
+    bake(small_recipe(), {.out_dir = "/proc/bn-bake"});  // not even root may
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::io);
+    EXPECT_NE(std::string(error.what()).find("/proc"), std::string::npos) << error.what();
+  }
+}
+
 // --- events --------------------------------------------------------------------------------------
 
 TEST(Bake, ReportsProgressThatNeverRunsBackwardsAndEndsAtOne) {
