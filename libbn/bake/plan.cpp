@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 // Measured on one core of a Zen 5 machine; they only pace the progress bar.
-constexpr double kMaskSecondsPerPixel = 0.4e-6;
-constexpr double kRetargetSecondsPerPixel = 7e-6;  // up to 128 x 128, then growing with the side
+constexpr double kMaskSecondsPerPixel = 0.3e-6;
+constexpr double kRetargetSecondsPerPixel = 1.5e-6;  // up to 128 x 128, then growing with the side
 constexpr double kContactSheetSeconds = 0.3;
 constexpr std::uint64_t kMaskBytesPerPixel = 12 + 8;     // the solver; encoding and writing
 constexpr std::uint64_t kSolverBytesPerPixel = 64;       // of a tile in work
