@@ -9,7 +9,7 @@
 namespace bn::tools {
 namespace {
 
-// The 49 tiles take a second or two on one thread, so that a signal finds them at work.
+// The 289 tiles take a second or two on one thread, so that a signal finds them at work.
 constexpr char kRecipe[] = R"(version = 1
 [[mask]]
 name = "m"
@@ -18,7 +18,7 @@ outputs = [{ path = "m.png" }]
 [[retarget]]
 name = "long"
 mask = "m"
-motion = 3
+motion = 8
 outputs = [{ path = "atlas.png" }]
 )";
 constexpr char kLongStarted[] = R"("kind":"retarget","name":"long")";
