@@ -101,10 +101,17 @@ void run(const Settings& settings, Session& session) {
   }
   session.progress.start("bake");
   EventPrinter printer(session.progress);
-  const BakeResult result = bake(recipe, settings.options, session.execution,
-                                 [&](const BakeEvent& event) { std::visit(printer, event); });
-  session.progress.finish();
-  print_result(result, settings, session);
+  try {
+    const BakeResult result = bake(recipe, settings.options, session.execution,
+                                   [&](const BakeEvent& event) { std::visit(printer, event); });
+    session.progress.finish();
+    print_result(result, settings, session);
+  } catch (const Error& error) {
+    if (error.code() != ErrorCode::cancelled) throw;
+    ErrorInfo info = error.info();
+    info.remedy = "the same command goes on where it stopped";
+    throw Error(info);
+  }
 }
 
 }  // namespace

@@ -79,8 +79,8 @@ std::string usage_line(const Verb& verb) {
   for (const auto& argument : verb.arguments.list()) {
     if (!argument.required) continue;
     const std::string& flag = argument.short_name.empty() ? argument.name : argument.short_name;
-    text +=
-        argument.is_positional() ? " " + argument.name + (argument.repeats ? "..." : "") : fmt::format(" {} {}", flag, argument.placeholder);
+    text += argument.is_positional() ? " " + argument.name + (argument.repeats ? "..." : "")
+                                     : fmt::format(" {} {}", flag, argument.placeholder);
   }
   return text + " [OPTIONS]";
 }

@@ -4,6 +4,24 @@
 #include "tools/verb.h"
 
 namespace bn::tools {
+namespace {
+
+/// For people: without the nesting, the tiles in one line, the recipe last and as it is.
+void print_text(Json result, const FileContent& content, Output& output) {
+  Json metadata = std::move(result["metadata"]);
+  result.erase("metadata");
+  if (!content.metadata) {
+    result["made_by"] = "another program";
+    return output.write_result(result, false);
+  }
+  for (const char* name : {"recipe", "tiles", "pixel_hash"}) metadata.erase(name);
+  result.update(metadata);
+  if (!content.metadata->tiles.empty()) result["energy"] = energy_text(content.metadata->tiles);
+  output.write_result(result, false);
+  output.write("\nrecipe\n" + content.metadata->recipe);
+}
+
+}  // namespace
 
 Verb info_verb() {
   struct Settings {
@@ -38,7 +56,8 @@ Verb info_verb() {
     } else {
       result["metadata"] = nullptr;
     }
-    session.output.write_result(result, settings->json);
+    if (settings->json) return session.output.write_result(result, true);
+    print_text(std::move(result), content, session.output);
   };
   return verb;
 }

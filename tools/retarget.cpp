@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "tools/records.h"
 #include "tools/verb.h"
 
@@ -18,10 +20,12 @@ struct Settings {
 
 /// The energies as the atlas has them: one row a motion in y.
 std::string energy_table(const std::vector<TileRecord>& tiles, int range) {
+  std::size_t width = 0;
+  for (const auto& tile : tiles) width = std::max(width, std::to_string(tile.energy).size() + 2);
   std::string text = fmt::format("\nenergy by motion, x {}..{} to the right, y downwards\n", -range, range);
   std::size_t index = 0;
   for (int y = -range; y <= range; ++y) {
-    for (int x = -range; x <= range; ++x) text += fmt::format("{:>9}", tiles[index++].energy);
+    for (int x = -range; x <= range; ++x) text += fmt::format("{:>{}}", tiles[index++].energy, width);
     text += '\n';
   }
   return text;

@@ -23,7 +23,7 @@ struct Argument {
   std::string allowed;      ///< the range, as the help shows it
   std::string initial;      ///< the value that holds where none is given, as the help shows it
   bool required = false;
-  bool repeats = false;     ///< a positional one that takes all the words that are left
+  bool repeats = false;  ///< a positional one that takes all the words that are left
   Completion completion = Completion::none;
   std::vector<std::string> choices = {};
   std::function<void(std::string_view text)> assign = {};

@@ -17,7 +17,7 @@ class BadInput : public testing::Test {
     const auto result = run_bn(arguments, setup);
     EXPECT_EQ(result.exit_code, exit_code) << result.err;
     EXPECT_EQ(result.out, "");
-    EXPECT_NE(("\n" + result.err).find("\nbn: "), std::string::npos) << result.err;
+    EXPECT_TRUE(result.err.starts_with("bn: ")) << result.err;
     EXPECT_TRUE(result.err.ends_with("\n")) << result.err;
     for (const auto& part : parts)
       EXPECT_NE(result.err.find(part), std::string::npos) << part << "\nin " << result.err;
@@ -126,9 +126,21 @@ TEST_F(BadInput, AFullDiskLeavesTheOldFileAndNoLitter) {
   expect_names({"mask.png"});
 }
 
+TEST_F(BadInput, AnOutputThatIsItsOwnSource) {
+  write("mask.png", simple_mask(16));
+  const std::string before = read_bytes(scratch_ / "mask.png");
+  expect_failure(3, {"retarget", "mask.png", "-o", "./mask.png"},
+                 {"mask.png", "replace the image that it is made for", "another file"});
+  EXPECT_EQ(read_bytes(scratch_ / "mask.png"), before);
+}
+
 TEST_F(BadInput, RequestsAboveTheMemoryLimit) {
   expect_failure(4, {"noise", "void-and-cluster", "--size", "1024x1024", "--max-memory", "2M", "-o", "x.png"},
                  {"MiB", "at most 2 MiB", "--max-memory"});
+  // Allowed by the flag, refused by the system.
+  expect_failure(4,
+                 {"noise", "void-and-cluster", "--size", "16384x16384", "--max-memory", "64G", "-o", "x.png"},
+                 {"out of memory", "ask for less"}, {.shell_prefix = "ulimit -v 2000000"});
   write("mask.png", simple_mask(256));
   expect_failure(4, {"retarget", "mask.png", "--max-memory", "1M"}, {"at most 1 MiB", "--max-memory"});
   expect_names({"mask.png"});

@@ -60,6 +60,7 @@ TEST_F(Interruption, StopsCleanlyAndGoesOn) {
   EXPECT_EQ(result.exit_code, 130) << result.err;
   EXPECT_EQ(result.out, "");
   EXPECT_NE(result.err.find(R"({"event":"error","exit_code":130)"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("goes on where it stopped"), std::string::npos) << result.err;
   EXPECT_EQ(names_in(scratch_ / "out"), (std::vector<std::string>{"m.png", "manifest.json"}));
   expect_resumed("out");
 }
