@@ -67,6 +67,7 @@ std::string bash_script() {
                               positional.empty() ? "-W ''" : positional);
   }
   for (const auto& [group, words] : words_after) {
+    value_lines += value_cases(group, global_arguments);
     word_lines += fmt::format("    '{}') options='{}' generate=(-W '{}') ;;\n", group,
                               names_of(global_arguments), words);
   }
@@ -87,9 +88,9 @@ _bn() {{
   if [ ${{#generate[@]}} = 0 ]; then
     case $verb in
 {}    esac
-    [[ $word == -* ]] && generate=(-W "$options")
+    [[ $word != -* ]] || generate=(-W "$options")
   fi
-  [[ ${{generate[0]}} == -[fd] ]] && compopt -o filenames 2>/dev/null
+  [[ ${{generate[0]}} != -[fd] ]] || compopt -o filenames 2>/dev/null || true
   mapfile -t COMPREPLY < <(compgen "${{generate[@]}}" -- "$word")
 }}
 complete -F _bn bn
