@@ -83,6 +83,7 @@ TEST_F(Interruption, SurvivesKill) {
 TEST_F(Interruption, TwoBakesCannotShareAFolder) {
   Process first(bake("out"), here());
   ASSERT_TRUE(first.wait_for_message(kLongStarted));
+  first.send(SIGSTOP);  // it keeps the folder however slow the second is
   auto arguments = bake("out");
   arguments.push_back("--quiet");
   const auto second = run_bn(arguments, here());
@@ -90,6 +91,7 @@ TEST_F(Interruption, TwoBakesCannotShareAFolder) {
   EXPECT_TRUE(second.err.starts_with("bn: ")) << second.err;
   EXPECT_NE(second.err.find("out"), std::string::npos) << second.err;
   first.send(SIGINT);
+  first.send(SIGCONT);
   EXPECT_EQ(first.wait().exit_code, 130);
 }
 
