@@ -81,10 +81,11 @@ Pass::Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int
     set_layout_ = vk::raii::DescriptorSetLayout(
         device.handle(), {vk::DescriptorSetLayoutCreateFlagBits::ePushDescriptorKHR, bindings});
     const vk::PushConstantRange range(vk::ShaderStageFlagBits::eCompute, 0, push_bytes);
-    layout_ =
-        vk::raii::PipelineLayout(device.handle(), vk::PipelineLayoutCreateInfo({}, *set_layout_, range));
-    const vk::raii::ShaderModule module(device.handle(),
-                                        vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
+    vk::PipelineLayoutCreateInfo layout({}, *set_layout_);
+    if (push_bytes > 0) layout.setPushConstantRanges(range);
+    layout_ = vk::raii::PipelineLayout(device.handle(), layout);
+    const std::vector<std::uint32_t> code = without_contraction(spirv);
+    const vk::raii::ShaderModule module(device.handle(), vk::ShaderModuleCreateInfo({}, code));
     const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *module, "main");
     pipeline_ =
         vk::raii::Pipeline(device.handle(), nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout_));
@@ -104,7 +105,7 @@ void Pass::record_bytes(const vk::raii::CommandBuffer& commands,
   }
   commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline_);
   commands.pushDescriptorSetKHR(vk::PipelineBindPoint::eCompute, *layout_, 0, writes);
-  commands.pushConstants<std::byte>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
+  if (!push.empty()) commands.pushConstants<std::byte>(*layout_, vk::ShaderStageFlagBits::eCompute, 0, push);
   commands.dispatch(static_cast<std::uint32_t>((invocations + group_size_ - 1) / group_size_),
                     static_cast<std::uint32_t>(rows), 1);
   record_barrier(commands);

@@ -18,12 +18,19 @@ class Pass {
   Pass(const VulkanDevice& device, std::span<const std::uint32_t> spirv, int buffers,
        std::uint32_t push_bytes, std::uint32_t group_size);
 
-  /// Records a dispatch of at least `invocations` in each of `rows` rows, and a barrier after it, so
-  /// that passes see each other's results in the order they are recorded.
+  /// Records a dispatch of at least `invocations` in each of `rows` rows of groups, and a barrier after it,
+  /// so that passes see each other's results in the order they are recorded.
   template <class Push>
   void record(const vk::raii::CommandBuffer& commands, std::initializer_list<const DeviceBuffer*> buffers,
               const Push& push, std::int64_t invocations, int rows = 1) const {
     record_bytes(commands, buffers, std::as_bytes(std::span(&push, 1)), invocations, rows);
+  }
+
+  /// Of a shader without push constants.
+  void record_without_push(const vk::raii::CommandBuffer& commands,
+                           std::initializer_list<const DeviceBuffer*> buffers, std::int64_t invocations,
+                           int rows = 1) const {
+    record_bytes(commands, buffers, {}, invocations, rows);
   }
 
  private:
@@ -74,7 +81,7 @@ class VulkanTemporal {
   const DeviceBuffer& luminance() const { return luminance_; }
   const DeviceBuffer& motion() const { return motion_; }
   const DeviceBuffer& seeds() const { return seeds_[current_]; }
-  Extent padded() const { return padded_; }
+  const DeviceBuffer& mask() const { return mask_; }
   Seeds download_seeds();
   Offset download_chosen_motion();
 

@@ -15,8 +15,10 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bn/core.h"
@@ -108,17 +110,11 @@ inline constexpr std::int16_t kNoMotion = -32768;
 /// on each axis; (0, 0) where no pixel knows. Exact: sums are integers.
 Offset choose_motion(const Grid<PixelMotion>& motion, int range);
 
-/// What one pass of one frame took.
-struct PassTime {
-  std::string pass;
-  double milliseconds = 0.0;
-};
-
 // --- the flat model ----------------------------------------------------------------------------
 
 /// The algorithm alone, without a renderer: every pixel's value is sample(seed, 0)^2.
 struct FlatModel {
-  Extent screen{256, 256};  ///< sides a power of two, for the spectrum
+  Extent screen{256, 256};  ///< any
   int block = 8;
   bool jitter = false;   ///< of the block grid
   bool retarget = true;  ///< with the plain tile
@@ -130,9 +126,146 @@ struct FlatModel {
 /// against white noise of the same variance, in dB.
 std::vector<double> run_flat_model(const FlatModel& model, const TemporalTextures& textures);
 
+// --- scenes --------------------------------------------------------------------------------------
+
+struct Colour {
+  float r = 0.0f, g = 0.0f, b = 0.0f;
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+struct Vector {
+  double x = 0.0, y = 0.0, z = 0.0;
+};
+
+/// Rectangles, boxes and spheres with one material each, lit by the rectangles that emit and the
+/// sky. At most kMaxPrimitives of them, met one after the other by every ray.
+inline constexpr int kMaxPrimitives = 1024;
+
+struct Material {
+  Colour albedo{0.5f, 0.5f, 0.5f};  ///< 0..1; reflectance at normal incidence where glossy
+  Colour emission;                  ///< 0 or more; rectangles only
+  float roughness = -1.0f;          ///< below 0: diffuse; 0.05..1: glossy, GGX with alpha = roughness^2
+  int checker_u = 0;                ///< cells along a rectangle's edges, 0 (no pattern) .. 1023
+  int checker_v = 0;
+  Colour checker_albedo;  ///< of every other cell
+};
+
+struct Rectangle {
+  Vector corner, edge_u, edge_v;  ///< edges at right angles
+  int material = 0;
+};
+
+struct Sphere {
+  Vector centre;
+  double radius = 1.0;
+  int material = 0;
+};
+
+struct CameraKey {
+  int frame = 0;
+  Vector eye, at;
+};
+
+/// A part of the picture, as shares of its sides, for measures of their own.
+struct Region {
+  std::string name;
+  double x = 0.0, y = 0.0, width = 1.0, height = 1.0;
+};
+
+struct Scene {
+  std::string name;
+  Colour sky;
+  double fov_degrees = 45.0;      ///< vertical, 1..150
+  std::vector<CameraKey> camera;  ///< at least one, frames rising; straight lines between keys
+  double pan_x_px = 0.0;          ///< moves the camera each frame, in pixels at the looked-at point
+  double pan_y_px = 0.0;
+  std::vector<Material> materials;
+  std::vector<Rectangle> rectangles;  ///< a box of the file is six of these
+  std::vector<Sphere> spheres;
+  std::vector<Region> regions;
+};
+
+/// The scenes that come with libbn, by name.
+std::vector<std::string> shipped_scenes();
+
+/// `name_or_path`: a shipped scene, or a TOML file (docs/validation.md has the keys).
+/// Errors: io; invalid_input naming file and line: unknown keys, missing materials, numbers that are
+/// not finite or out of range, edges that are not at right angles, too many primitives.
+Scene load_scene(const std::string& name_or_path);
+/// The same from text; `where` names it in messages.
+Scene read_scene(std::string_view toml, const std::string& where);
+
+// --- rendering -----------------------------------------------------------------------------------
+
+/// How a pixel gets its random numbers. All cost the same rays.
+enum class Method {
+  white,        ///< new random seeds each frame
+  mask_still,   ///< one mask for all frames
+  mask_moved,   ///< the mask moved by the step each frame
+  mask_golden,  ///< the mask's levels turned by the golden ratio each frame
+  sort,         ///< the temporal algorithm: sort only
+  retarget,     ///< sort, and the plain retarget tile
+  reproject,    ///< sort, and the tile for the mean motion of the picture
+};
+std::string_view name_of(Method method);
+inline constexpr Method kMethods[] = {Method::white,       Method::mask_still, Method::mask_moved,
+                                      Method::mask_golden, Method::sort,       Method::retarget,
+                                      Method::reproject};
+
+struct RenderSettings {
+  Extent screen{256, 256};  ///< sides 1..4096
+  Method method = Method::retarget;
+  int bounces = 2;      ///< 1..8 scatterings a path
+  int block = 8;        ///< sort block's side: 2, 4, 8, 16
+  bool jitter = false;  ///< of the block grid
+  std::uint64_t seed = 1;
+};
+
+struct PassTime {
+  std::string pass;
+  double milliseconds = 0.0;
+};
+
+struct Frame {
+  Grid<Colour> colour;          ///< linear radiance
+  Grid<std::uint32_t> shown;    ///< tone mapped, bytes R, G, B, 255 from low to high
+  Seeds seeds;                  ///< as the frame was traced with
+  Offset motion;                ///< that the seeds were carried by before this frame
+  std::vector<PassTime> times;  ///< empty for the plain renderer
+};
+
+/// Renders frames 0, 1, 2, ... of one sequence; each call is the next frame:
+/// G-buffer, retarget, trace, sort, tone map. The multiset of seeds is checked at every frame.
+class Renderer {
+ public:
+  virtual ~Renderer() = default;
+  virtual Frame next() = 0;
+  virtual std::string device() const = 0;
+};
+
+/// The plain renderer, on the processor.
+std::unique_ptr<Renderer> make_plain_renderer(const Scene& scene, const TemporalTextures& textures,
+                                              const RenderSettings& settings,
+                                              const Execution& execution = {});
+
+/// A Vulkan device, opened once and shared by renderers. `name`: "lavapipe" (Mesa's software device), "gpu",
+/// or a part of a device's name. `validate` turns the validation layers on, synchronisation included. Errors:
+/// io (no loader, no driver, no such device, a missing feature: each is named).
+class VulkanDevice;
+std::shared_ptr<VulkanDevice> open_vulkan_device(const std::string& name, bool validate = false);
+/// What the validation layers complained about so far.
+std::vector<std::string> complaints(const VulkanDevice& device);
+
+/// The same renderer on a device: equal bit for bit where the device rounds like IEEE, as lavapipe
+/// does; seeds are equal whenever the luminance is.
+/// Errors: over_limit (device memory).
+std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<VulkanDevice> device, const Scene& scene,
+                                               const TemporalTextures& textures,
+                                               const RenderSettings& settings);
+
 // --- measures ----------------------------------------------------------------------------------
 
-/// Power of `picture` (sides powers of two) at 0 < f <= limit against white noise of its variance:
+/// Power of `picture` at 0 < f <= limit against white noise of its variance:
 /// white noise reads 1.
 double low_frequency_power(const Grid<float>& picture, double limit);
 

@@ -1,0 +1,25 @@
+// What a frame is rendered with, in the layout of shaders/frame.glsl.
+#pragma once
+
+#include <cstdint>
+
+#include "runtime/shader_math.h"
+
+namespace bn {
+
+struct FrameConstants {
+  vec4 eye, forward, right, down;
+  vec4 previous_eye, previous_forward, previous_right, previous_down;
+  vec4 sky;
+  float pixel_size2;
+  std::int32_t level_shift;
+  std::uint32_t rotation;
+  std::uint32_t frame_key;
+  std::int32_t screen_width, screen_height, seed_pitch;
+  std::int32_t primitive_count, material_count, light_count;
+  std::int32_t bounces, sampling;
+  std::int32_t tile_width, tile_height, shift_x, shift_y;
+};
+static_assert(sizeof(FrameConstants) == 9 * 16 + 16 * 4);
+
+}  // namespace bn
