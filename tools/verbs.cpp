@@ -10,6 +10,7 @@ Verb info_verb();
 Verb retarget_verb();
 Verb spectrum_verb();
 Verb study_fft_verb();
+Verb validate_verb();
 Verb verify_verb();
 Verb noise_void_and_cluster_verb();
 
@@ -18,7 +19,7 @@ std::vector<Verb> all_verbs() {
       bake_verb(),      noise_void_and_cluster_verb(),
       retarget_verb(),  info_verb(),
       verify_verb(),    spectrum_verb(),
-      study_fft_verb(), completion_verb(),
+      study_fft_verb(), validate_verb(),  completion_verb(),
       help_verb(),
   };
 }

@@ -1,28 +1,99 @@
 // Measures of a rendered error picture.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "bn/runtime.h"
 #include "bn/spectrum.h"
 
 namespace bn {
+namespace {
 
-double low_frequency_power(const Grid<float>& picture, double limit) {
-  const std::vector<double> values(picture.begin(), picture.end());
-  const PowerSpectrum power = power_spectrum(values, {picture.width(), picture.height(), 1}, {.threads = 1});
+/// The mean of power(kx, ky) over the frequencies 0 < f <= limit.
+template <class Power>
+double band_mean(Extent size, double limit, const Power& power) {
   double sum = 0.0;
   std::int64_t count = 0;
-  for (int ky = 0; ky < picture.height(); ++ky) {
-    for (int kx = 0; kx < picture.width(); ++kx) {
-      const double fx = static_cast<double>(wrap_centred(kx, picture.width())) / picture.width();
-      const double fy = static_cast<double>(wrap_centred(ky, picture.height())) / picture.height();
+  for (int ky = 0; ky < size.height; ++ky) {
+    for (int kx = 0; kx < size.width; ++kx) {
+      const double fx = static_cast<double>(wrap_centred(kx, size.width)) / size.width;
+      const double fy = static_cast<double>(wrap_centred(ky, size.height)) / size.height;
       const double radius = std::hypot(fx, fy);
       if (radius == 0.0 || radius > limit) continue;
-      sum += power.at(kx, ky);
+      sum += power(kx, ky);
       ++count;
     }
   }
   return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+double low_frequency_power(const Grid<float>& picture, double limit) {
+  const std::vector<double> values(picture.begin(), picture.end());
+  const PowerSpectrum power = power_spectrum(values, {picture.width(), picture.height(), 1}, {.threads = 1});
+  return band_mean(picture.size(), limit, [&](int kx, int ky) { return power.at(kx, ky); });
+}
+
+double low_frequency_error(const Grid<float>& error, double limit) {
+  const auto window = [](int at, int size) {
+    return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (at + 0.5) / size);
+  };
+  std::vector<double> values(error.count());
+  double squares = 0.0;
+  for (int y = 0; y < error.height(); ++y) {
+    for (int x = 0; x < error.width(); ++x) {
+      const double weight = window(x, error.width()) * window(y, error.height());
+      values[static_cast<std::size_t>(y) * static_cast<std::size_t>(error.width()) +
+             static_cast<std::size_t>(x)] = error(x, y) * weight;
+      squares += weight * weight;
+    }
+  }
+  // power_spectrum() divides by N times the variance; taking that back gives |F|^2.
+  double mean = 0.0;
+  for (const double value : values) mean += value;
+  mean /= static_cast<double>(values.size());
+  double variance_sum = 0.0;
+  for (const double value : values) variance_sum += (value - mean) * (value - mean);
+  if (variance_sum == 0.0) return 0.0;
+  const PowerSpectrum power = power_spectrum(values, {error.width(), error.height(), 1}, {.threads = 1});
+  return band_mean(error.size(), limit, [&](int kx, int ky) { return power.at(kx, ky); }) * variance_sum /
+         squares;
+}
+
+double blurred_rms(const Grid<float>& error, double sigma_px) {
+  Grid<float> picture = error;
+  if (sigma_px > 0.0) {
+    const int radius = static_cast<int>(std::ceil(4.0 * sigma_px));
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (int i = -radius; i <= radius; ++i) {
+      weights.push_back(std::exp(-0.5 * i * i / (sigma_px * sigma_px)));
+      sum += weights.back();
+    }
+    const auto blur = [&](const Grid<float>& from, int dx, int dy) {
+      Grid<float> to(from.size());
+      for (int y = 0; y < from.height(); ++y) {
+        for (int x = 0; x < from.width(); ++x) {
+          double value = 0.0;
+          for (int i = -radius; i <= radius; ++i) {
+            const int u = std::clamp(x + i * dx, 0, from.width() - 1);
+            const int v = std::clamp(y + i * dy, 0, from.height() - 1);
+            value += weights[static_cast<std::size_t>(i + radius)] * from(u, v);
+          }
+          to(x, y) = static_cast<float>(value / sum);
+        }
+      }
+      return to;
+    };
+    picture = blur(blur(picture, 1, 0), 0, 1);
+  }
+  double squares = 0.0;
+  for (const float value : picture) squares += static_cast<double>(value) * value;
+  return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, picture.count())));
 }
 
 }  // namespace bn

@@ -43,23 +43,29 @@ struct Camera {
   Vector eye, forward, right, down;  // right and down as long as a pixel at distance 1
 };
 
-Camera camera_at(const Scene& scene, Extent screen, int frame) {
+/// Between the keys, before the pan.
+CameraKey pose_at(const Scene& scene, int frame) {
   const auto after = std::find_if(scene.camera.begin(), scene.camera.end(),
                                   [&](const CameraKey& key) { return key.frame > frame; });
   const CameraKey& first = after == scene.camera.begin() ? *after : *(after - 1);
   const CameraKey& second = after == scene.camera.end() ? first : *after;
   const double span = second.frame - first.frame;
   const double share = span > 0 ? std::clamp((frame - first.frame) / span, 0.0, 1.0) : 0.0;
-  Vector eye = first.eye + (second.eye - first.eye) * share;
-  const Vector at = first.at + (second.at - first.at) * share;
-  const double distance = length(at - eye);
-  Camera camera;
-  camera.forward = (at - eye) * (1.0 / distance);
+  return {.frame = 0,
+          .eye = first.eye + (second.eye - first.eye) * share,
+          .at = first.at + (second.at - first.at) * share};
+}
+
+Camera camera_at(const Scene& scene, Extent screen, int frame) {
+  const CameraKey pose = pose_at(scene, frame);
+  const double distance = length(pose.at - pose.eye);
   const double pixel = 2.0 * std::tan(scene.fov_degrees * std::numbers::pi / 360.0) / screen.height;
+  Camera camera;
+  camera.forward = (pose.at - pose.eye) * (1.0 / distance);
   const Vector right = cross(camera.forward, {0.0, 1.0, 0.0});
   camera.right = right * (pixel / length(right));
   camera.down = cross(camera.forward, camera.right);
-  camera.eye = eye + (camera.right * scene.pan_x_px + camera.down * scene.pan_y_px) * (frame * distance);
+  camera.eye = pose.eye + (camera.right * scene.pan_x_px + camera.down * scene.pan_y_px) * (frame * distance);
   return camera;
 }
 
@@ -133,6 +139,13 @@ void check_scene(const Scene& scene) {
   }
 }
 
+bool same_view(const Scene& scene, int frame, int other) {
+  const Extent any{100, 100};
+  const Camera a = camera_at(scene, any, frame);
+  const Camera b = camera_at(scene, any, other);
+  return length(a.eye - b.eye) == 0.0 && length(a.forward - b.forward) == 0.0;
+}
+
 PackedScene pack_scene(const Scene& scene) {
   PackedScene packed;
   std::vector<float> lights;
@@ -170,8 +183,10 @@ FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
                                const TemporalTextures& textures, const RenderSettings& settings,
                                Extent padded, int frame) {
   FrameConstants constants{};
-  const Camera now = camera_at(scene, settings.screen, frame);
-  const Camera before = camera_at(scene, settings.screen, std::max(frame - 1, 0));
+  const int view = settings.camera_frame.value_or(frame);
+  const int view_before = settings.camera_frame.value_or(std::max(frame - 1, 0));
+  const Camera now = camera_at(scene, settings.screen, view);
+  const Camera before = camera_at(scene, settings.screen, view_before);
   constants.eye = {rounded(now.eye), 0.0f};
   constants.forward = {rounded(now.forward), 0.0f};
   constants.right = {rounded(now.right), 0.0f};

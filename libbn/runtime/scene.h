@@ -11,6 +11,9 @@ namespace bn {
 /// Throws invalid_input, naming the first thing that is wrong with `scene`.
 void check_scene(const Scene& scene);
 
+/// Is the camera at the same place, looking the same way, at both frames?
+bool same_view(const Scene& scene, int frame, int other);
+
 /// scene[] of shaders/trace.glsl, and its counts.
 struct PackedScene {
   std::vector<vec4> words;

@@ -15,8 +15,10 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <iterator>
 #include <memory>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -219,6 +221,7 @@ struct RenderSettings {
   int block = 8;        ///< sort block's side: 2, 4, 8, 16
   bool jitter = false;  ///< of the block grid
   std::uint64_t seed = 1;
+  std::optional<int> camera_frame = {};  ///< the camera stays where it is at this frame
 };
 
 struct PassTime {
@@ -265,8 +268,55 @@ std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<VulkanDevice> dev
 
 // --- measures ----------------------------------------------------------------------------------
 
-/// Power of `picture` at 0 < f <= limit against white noise of its variance:
-/// white noise reads 1.
+/// Power of `picture` at 0 < f <= limit against white noise of its variance: white noise reads 1.
 double low_frequency_power(const Grid<float>& picture, double limit);
+
+/// The same without dividing by the variance, of a part of an error picture: what a blur would leave
+/// visible. Windowed (Hann), since a part does not wrap.
+double low_frequency_error(const Grid<float>& error, double limit);
+
+/// Root of the mean square of `error` after a Gaussian blur of `sigma_px` (0: none), edges repeated.
+double blurred_rms(const Grid<float>& error, double sigma_px);
+
+// --- textures of a run ---------------------------------------------------------------------------
+
+/// Reads mask.png and retarget_atlas.png (or retarget.png) of a baked folder. The step is the one the
+/// tiles were baked for.
+/// Errors: io; verification_failed (a pixel hash that is not the recorded one); invalid_input: sizes
+/// that disagree, and a `step` other than the recorded one, unless `unsafe` lets it pass.
+TemporalTextures read_temporal_textures(const std::filesystem::path& folder, std::optional<Offset> step = {},
+                                        bool unsafe = false, const Execution& execution = {});
+
+/// A 64 x 64 mask of 8 bits and its proven tiles for motions of -range..range, made on the spot.
+TemporalTextures make_temporal_textures(int motion_range, const Execution& execution = {});
+
+// --- the study -----------------------------------------------------------------------------------
+
+/// What `bn validate` renders and measures.
+struct StudyOptions {
+  std::vector<std::string> scenes;  ///< names or files
+  std::vector<Method> methods{std::begin(kMethods), std::end(kMethods)};
+  Extent screen{384, 256};
+  int frames = 16;               ///< after the first, 1..1000
+  int reference_samples = 2048;  ///< paths a pixel of the converged picture, 1..65536
+  int bounces = 2;
+  int block = 8;
+  bool jitter = false;
+  std::uint64_t seed = 1;
+
+  /// A minute's run.
+  void make_quick();
+};
+
+/// Renders every scene with every method and writes to `folder`:
+///   errors.csv    scene, method, frame, region: RMSE, blurred RMSE, low-frequency error, flicker
+///   radial.csv    power of the error by frequency, last frame
+///   passes.csv    milliseconds and share of each pass, and its memory
+///   report.md     the summary, with a paragraph's room for each case
+///   SCENE/...png  last frames, and the errors of the first seven frames over their spectra
+/// `device`: null renders on the processor. Files are written whole or not at all.
+void run_study(const StudyOptions& options, const TemporalTextures& textures,
+               std::shared_ptr<VulkanDevice> device, const std::filesystem::path& folder,
+               const Execution& execution = {});
 
 }  // namespace bn

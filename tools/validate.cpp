@@ -1,0 +1,117 @@
+// bn validate: the baked textures at work in a small renderer, measured.
+
+#include <fmt/format.h>
+
+#include "bn/runtime.h"
+#include "tools/verb.h"
+
+namespace bn::tools {
+namespace {
+
+struct Settings {
+  std::string scene;
+  std::string method = "all";
+  StudyOptions study;
+  std::string device = "lavapipe";
+  std::filesystem::path textures;
+  std::optional<Offset> step;
+  bool unsafe = false;
+  bool quick = false;
+  std::filesystem::path out;
+};
+
+ValueKind<std::string> any_text(std::string placeholder) {
+  ValueKind<std::string> kind;
+  kind.placeholder = std::move(placeholder);
+  kind.parse = [](std::string_view text, std::string_view) { return std::string(text); };
+  kind.show = [](const std::string& text) { return text; };
+  return kind;
+}
+
+void run(Settings& settings, Session& session) {
+  StudyOptions& study = settings.study;
+  study.scenes = settings.scene == "all" ? shipped_scenes() : std::vector<std::string>{settings.scene};
+  for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
+  if (settings.method != "all") {
+    // White noise is what the others are measured against.
+    study.methods = {Method::white};
+    for (const Method method : kMethods) {
+      if (name_of(method) == settings.method && method != Method::white) study.methods.push_back(method);
+    }
+  }
+  if (settings.quick) study.make_quick();
+  std::shared_ptr<VulkanDevice> device;
+  if (settings.device != "cpu") device = open_vulkan_device(settings.device);
+  TemporalTextures textures;
+  if (settings.textures.empty()) {
+    textures = make_temporal_textures(4, session.execution_showing("textures"));
+    if (settings.step && !(*settings.step == textures.step)) {
+      throw Error({.code = ErrorCode::usage,
+                   .what = "the step of textures that are baked on the spot cannot be chosen",
+                   .where = "--step",
+                   .limit = "with --textures only",
+                   .remedy = ""});
+    }
+    session.progress.finish();
+  } else {
+    textures = read_temporal_textures(settings.textures, settings.step, settings.unsafe, session.execution);
+  }
+  run_study(study, textures, device, settings.out, session.execution_showing("validate"));
+  session.progress.finish();
+  session.output.write(fmt::format("report  {}\n", (settings.out / "report.md").string()));
+}
+
+}  // namespace
+
+Verb validate_verb() {
+  const auto settings = std::make_shared<Settings>();
+  StudyOptions& study = settings->study;
+  Verb verb;
+  verb.name = "validate";
+  verb.summary = "Render scenes with the baked textures and measure what they bring.";
+  verb.examples = {{"bn validate all --quick -o study", "every shipped scene, a minute's run"},
+                   {"bn validate poster --textures out/64 -o study", "one scene with the textures of a bake"},
+                   {"bn validate my_scene.toml --method reproject --block 16 --frames 32 -o study",
+                    "a scene of your own, one method against white noise"},
+                   {"bn validate room --device gpu --size 1920x1080 -o study", "on a graphics card"}};
+  verb.details =
+      "Each scene is rendered with one path a pixel, with white noise, with masks used in simpler ways, and "
+      "with "
+      "the temporal algorithm: sort, sort and retarget, and retarget with the tile for the picture's motion. "
+      "The "
+      "errors against a converged picture, their spectra and the cost of every pass go into CSV files, "
+      "pictures "
+      "and report.md.\n\n"
+      "The Vulkan device is Mesa's lavapipe unless --device names another: gpu, a part of a device's name, "
+      "or cpu "
+      "for the plain renderer without Vulkan.";
+  verb.arguments.positional(
+      "SCENE", settings->scene, any_text("SCENE"),
+      "wall, room, poster, bars, slow-pan, fast-pan, cut, all of them by all, or a TOML file.");
+  std::vector<std::pair<std::string, std::string>> methods{{"all", "all"}};
+  for (const Method method : kMethods) methods.emplace_back(name_of(method), name_of(method));
+  verb.arguments.option("--method", settings->method, choice_of<std::string>(methods),
+                        "One method, and white noise to measure it against.");
+  verb.arguments.option(
+      "--textures", settings->textures, folder_path(),
+      "Folder with mask.png and retarget_atlas.png of a bake; without it they are made on the spot.");
+  verb.arguments.option("--step", settings->step, offset_or_auto(),
+                        "The dither step; must be the one the tiles were baked for, which auto takes.");
+  verb.arguments.flag("--unsafe", settings->unsafe, true, "Let a wrong step pass, to see what it costs.");
+  verb.arguments.option("--device", settings->device, any_text("NAME"),
+                        "lavapipe, gpu, cpu, or a device's name.");
+  verb.arguments.option("--size", study.screen, extent_in(8, 4096), "The screen.");
+  verb.arguments.option("--frames", study.frames, integer_in(1, 1000), "Frames after the first.");
+  verb.arguments.option("--reference", study.reference_samples, integer_in(1, 65536),
+                        "Paths a pixel of the converged picture.");
+  verb.arguments.option("--bounces", study.bounces, integer_in(1, 8), "Scatterings a path.");
+  verb.arguments.option("--block", study.block, integer_in(2, 16), "Side of the sort blocks: 2, 4, 8 or 16.");
+  verb.arguments.flag("--jitter", study.jitter, true, "Move the block grid by a random offset each frame.");
+  verb.arguments.option("--seed", study.seed, seed_value(), "Chooses the random numbers.");
+  verb.arguments.flag("--quick", settings->quick, true, "192x128 pixels, 8 frames, 256 reference paths.");
+  verb.arguments.required_option("--out", settings->out, folder_path(), "Where the report goes.", "-o");
+  verb.run = [settings](Session& session) { run(*settings, session); };
+  return verb;
+}
+
+}  // namespace bn::tools
