@@ -107,6 +107,8 @@ Verb validate_verb() {
   verb.arguments.option("--bounces", study.bounces, integer_in(1, 8), "Scatterings a path.");
   verb.arguments.option("--block", study.block, integer_in(2, 16), "Side of the sort blocks: 2, 4, 8 or 16.");
   verb.arguments.flag("--jitter", study.jitter, true, "Move the block grid by a random offset each frame.");
+  verb.arguments.flag("--sort-by-light", study.sort_by_light, true,
+                      "Sort by the light alone, without the surface's colour: texture edges are none to it.");
   verb.arguments.option("--seed", study.seed, seed_value(), "Chooses the random numbers.");
   verb.arguments.flag("--quick", settings->quick, true, "192x128 pixels, 8 frames, 256 reference paths.");
   verb.arguments.required_option("--out", settings->out, folder_path(), "Where the report goes.", "-o");

@@ -19,7 +19,9 @@ struct FrameConstants {
   std::int32_t primitive_count, material_count, light_count;
   std::int32_t bounces, sampling;
   std::int32_t tile_width, tile_height, shift_x, shift_y;
+  std::int32_t sort_by_light;
+  std::int32_t unused[3];  // to a whole number of vec4
 };
-static_assert(sizeof(FrameConstants) == 9 * 16 + 16 * 4);
+static_assert(sizeof(FrameConstants) == 9 * 16 + 20 * 4);
 
 }  // namespace bn

@@ -61,10 +61,10 @@ void render_paths(Grid<Colour>& colour, Grid<float>& luminance, const GBuffer& g
       tracer.pixel_y = y;
       tracer.stream = seeds(x, y) ^ (constants.sampling == 0 ? constants.frame_key : 0u);
       tracer.dimension = 0;
-      const vec3 radiance =
-          tracer.render({gbuffer.position(x, y), gbuffer.normal(x, y), gbuffer.albedo(x, y), 0, 0});
+      const Tracer::Seen seen{gbuffer.position(x, y), gbuffer.normal(x, y), gbuffer.albedo(x, y), 0, 0};
+      const vec3 radiance = tracer.render(seen);
       colour(x, y) = {radiance.x, radiance.y, radiance.z};
-      luminance(x, y) = tracer.luminance_of(radiance);
+      luminance(x, y) = tracer.sort_luminance(seen, radiance);
     }
   });
 }

@@ -204,6 +204,7 @@ FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
   constants.material_count = packed.materials;
   constants.light_count = packed.lights;
   constants.bounces = settings.bounces;
+  constants.sort_by_light = settings.sort_by_light ? 1 : 0;
   const bool by_mask = settings.method == Method::mask_still || settings.method == Method::mask_moved ||
                        settings.method == Method::mask_golden;
   constants.sampling = by_mask ? 1 : 0;

@@ -120,6 +120,7 @@ class SceneStudy {
                             .bounces = options_.bounces,
                             .block = options_.block,
                             .jitter = options_.jitter,
+                            .sort_by_light = options_.sort_by_light,
                             .seed = options_.seed};
     settings.camera_frame = camera_frame;
     // The references must not share their random numbers with the white noise they judge.
@@ -401,7 +402,8 @@ void run_study(const StudyOptions& options, const TemporalTextures& textures,
       "the blurred error from frame to frame, RMSE of the exponential average (0.1).\n"
       "References: {} paths a pixel, so {:.0f} dB below white noise.\n",
       options.screen.width, options.screen.height, options.bounces, options.frames + 1, options.block,
-      options.jitter ? ", jittered" : "",
+      fmt::format("{}{}", options.jitter ? ", jittered" : "",
+                  options.sort_by_light ? ", sorted by light" : ""),
       device ? "on " + make_vulkan_renderer(device, scenes[0], textures, {.screen = {8, 8}})->device()
              : "on the processor",
       (options.frames + 1) / 2, options.reference_samples, 10.0 * std::log10(options.reference_samples));

@@ -63,7 +63,8 @@ TEST(Renderer, LavapipeEqualsTheProcessorInEveryMethod) {
 
 TEST(Renderer, LavapipeEqualsTheProcessorInEveryScene) {
   for (const std::string& scene : shipped_scenes()) {
-    expect_same(scene, {.screen = {64, 40}, .method = Method::reproject, .block = 2}, 3);
+    expect_same(scene, {.screen = {64, 40}, .method = Method::reproject, .block = 2, .sort_by_light = true},
+                3);
   }
 }
 

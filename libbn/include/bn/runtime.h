@@ -217,9 +217,10 @@ inline constexpr Method kMethods[] = {Method::white,       Method::mask_still, M
 struct RenderSettings {
   Extent screen{256, 256};  ///< sides 1..4096
   Method method = Method::retarget;
-  int bounces = 2;      ///< 1..8 scatterings a path
-  int block = 8;        ///< sort block's side: 2, 4, 8, 16
-  bool jitter = false;  ///< of the block grid
+  int bounces = 2;             ///< 1..8 scatterings a path
+  int block = 8;               ///< sort block's side: 2, 4, 8, 16
+  bool jitter = false;         ///< of the block grid
+  bool sort_by_light = false;  ///< sort by the light alone, without the surface's colour
   std::uint64_t seed = 1;
   std::optional<int> camera_frame = {};  ///< the camera stays where it is at this frame
 };
@@ -302,6 +303,7 @@ struct StudyOptions {
   int bounces = 2;
   int block = 8;
   bool jitter = false;
+  bool sort_by_light = false;
   std::uint64_t seed = 1;
 
   /// A minute's run.

@@ -11,4 +11,5 @@ layout(std430, binding = 0) readonly buffer Frame {
   int primitive_count, material_count, light_count;
   int bounces, sampling;
   int tile_width, tile_height, shift_x, shift_y;
+  int sort_by_light;
 };

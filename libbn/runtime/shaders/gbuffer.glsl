@@ -55,3 +55,13 @@ vec3 render(Seen seen) {
   vec3 outwards = unit3(xyz(eye) - surface.position);
   return emission + trace_from(surface, outwards);
 }
+
+// What the sort orders by: the luminance shown, or (sort_by_light) that of the light alone, without the
+// surface's own colour and emission. A texture's edge is then no edge to the sort.
+float sort_luminance(Seen seen, vec3 colour) {
+  if (sort_by_light == 0 || seen.position.w < 0.0f) return luminance_of(colour);
+  vec3 emission = xyz(scene[4 * primitive_count + 3 * int(seen.albedo.w) + 1]);
+  vec3 light = colour - emission;
+  return luminance_of(vec3(light.x * (1.0f / larger(seen.albedo.x, 0.001f)), light.y * (1.0f / larger(seen.albedo.y, 0.001f)),
+                           light.z * (1.0f / larger(seen.albedo.z, 0.001f))));
+}

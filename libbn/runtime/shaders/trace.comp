@@ -36,5 +36,5 @@ void main() {
   seen.albedo = albedos[index];
   vec3 colour = render(seen);
   colours[index] = vec4(colour, 1.0);
-  luminance[index] = luminance_of(colour);
+  luminance[index] = sort_luminance(seen, colour);
 }
