@@ -1,0 +1,142 @@
+// Protects: the measures against known answers; textures read back from files, and refused where step,
+// size, mask or pixels do not fit; the study end to end, whole files only.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <string>
+
+#include "bn/texture.h"
+#include "runtime/test_textures.h"
+
+namespace bn {
+namespace {
+
+std::filesystem::path fresh_folder(const std::string& name) {
+  const auto folder = std::filesystem::temp_directory_path() / ("bn_runtime_" + name);
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+Grid<float> white_noise(Extent size) {
+  Grid<float> noise(size);
+  for (std::size_t i = 0; i < noise.count(); ++i) noise[i] = sample(static_cast<std::uint32_t>(i), 7) - 0.5f;
+  return noise;
+}
+
+TEST(Measures, WhiteNoiseReadsOneAndItsVariance) {
+  const Grid<float> noise = white_noise({256, 256});
+  EXPECT_NEAR(low_frequency_power(noise, 0.1), 1.0, 0.1);  // 2058 frequencies: sigma 0.03
+  EXPECT_NEAR(low_frequency_error(noise, 0.1), 1.0 / 12.0, 0.1 / 12.0);
+  EXPECT_NEAR(blurred_rms(noise, 0.0), std::sqrt(1.0 / 12.0), 0.003);
+  // A Gaussian blur leaves 1 / (4 pi sigma^2) of the power of white noise.
+  EXPECT_NEAR(blurred_rms(noise, 2.0), std::sqrt(1.0 / 12.0 / (16.0 * 3.14159265)), 0.003);
+}
+
+TEST(Measures, AWaveAboveTheBandIsNotSeen) {
+  Grid<float> wave({96, 80});
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 96; ++x) wave(x, y) = static_cast<float>(std::sin(2.0 * 3.14159265358979 * 0.25 * x));
+  }
+  EXPECT_LT(low_frequency_error(wave, 0.1), 1e-6);
+  EXPECT_GT(low_frequency_error(wave, 0.3), 1e-3);
+}
+
+class BakedFolder : public testing::Test {
+ protected:
+  BakedFolder() {
+    mask_.kind = "mask";
+    write_image(folder_ / "mask.png", encode_levels(), mask_);
+    const Image moves = encode_moves(test::proven_textures().moves[0]);
+    tile_.kind = "retarget-tile";
+    tile_.step = test::kStep;
+    tile_.form = "scatter";
+    tile_.tiles = {{}};
+    tile_.source_hash = pixel_hash(encode_levels());
+    write_image(folder_ / "retarget.png", moves, tile_);
+  }
+
+  static Image encode_levels() {
+    Image image{.size = {64, 64}, .channels = 1, .type = SampleType::u8, .samples = {}};
+    for (const std::int32_t level : test::mask_64()) image.samples.push_back(static_cast<std::byte>(level));
+    return image;
+  }
+
+  std::string refusal(std::optional<Offset> step = {}) {
+    try {
+      read_temporal_textures(folder_, step);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::filesystem::path folder_ = fresh_folder("baked");
+  Metadata mask_, tile_;
+};
+
+TEST_F(BakedFolder, ReadsBackWhatWasBaked) {
+  const TemporalTextures read = read_temporal_textures(folder_);
+  EXPECT_EQ(read.mask, test::proven_textures().mask);
+  EXPECT_EQ(read.moves, test::proven_textures().moves);
+  EXPECT_EQ(read.step, test::kStep);
+}
+
+TEST_F(BakedFolder, RefusesAnotherStepUnlessUnsafe) {
+  EXPECT_NE(refusal(Offset{48, 36}).find("(49, 37)"), std::string::npos) << refusal(Offset{48, 36});
+  EXPECT_EQ(refusal(test::kStep), "");
+  EXPECT_EQ(read_temporal_textures(folder_, Offset{48, 36}, true).step, (Offset{48, 36}));
+}
+
+TEST_F(BakedFolder, AWrongStepCostsWhatTheStudySays) {
+  TemporalTextures wrong = test::proven_textures();
+  wrong.step = {48, 36};
+  const double right_db = run_flat_model({}, test::proven_textures()).back();
+  const double wrong_db = run_flat_model({}, wrong).back();
+  EXPECT_GT(wrong_db, right_db + 5.0) << wrong_db << " dB against " << right_db << " dB";
+}
+
+TEST_F(BakedFolder, RefusesAnotherMaskAndOtherSizes) {
+  tile_.source_hash = "xxh3-128:0";
+  write_image(folder_ / "retarget.png", encode_moves(test::proven_textures().moves[0]), tile_);
+  EXPECT_NE(refusal().find("another mask"), std::string::npos) << refusal();
+  tile_.source_hash.reset();
+  write_image(folder_ / "retarget.png", encode_moves(Grid<Offset>({32, 64})), tile_);
+  EXPECT_NE(refusal().find("32x64"), std::string::npos) << refusal();
+  std::filesystem::remove(folder_ / "retarget.png");
+  EXPECT_NE(refusal(), "");
+}
+
+TEST(Study, WritesItsFilesWholeAndTheSameEachTime) {
+  const auto run = [](const std::string& name) {
+    const auto folder = fresh_folder(name);
+    StudyOptions options;
+    options.scenes = {"poster"};
+    options.methods = {Method::white, Method::retarget};
+    options.screen = {48, 32};
+    options.frames = 2;
+    options.reference_samples = 4;
+    run_study(options, test::proven_textures(), nullptr, folder, {.threads = 1});
+    std::ifstream file(folder / "errors.csv");
+    EXPECT_TRUE(std::filesystem::exists(folder / "poster" / "retarget-first-frames.png"));
+    EXPECT_TRUE(std::filesystem::exists(folder / "report.md"));
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string once = run("study_1");
+  EXPECT_EQ(run("study_2"), once);
+  // A header, and two methods, three frames, three regions.
+  EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1 + 2 * 3 * 3);
+}
+
+TEST(Study, RefusesBeforeItWrites) {
+  const auto folder = std::filesystem::temp_directory_path() / "bn_runtime_never";
+  std::filesystem::remove_all(folder);
+  StudyOptions options;
+  options.scenes = {"no-such-scene"};
+  EXPECT_THROW(run_study(options, test::proven_textures(), nullptr, folder), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder));
+}
+
+}  // namespace
+}  // namespace bn
