@@ -43,6 +43,9 @@ Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string
                     const Execution& execution);
 Bytes encode_oiio(const std::string& format, const Image& image, const std::string& description);
 
+/// Throws unless every attribute of an EXR header lies inside the file.
+void check_exr_header(ByteView bytes, const std::string& name);
+
 // PNG is read without OpenImageIO; png.cpp says why.
 Decoded decode_png(ByteView bytes, const std::string& name, const Execution& execution);
 

@@ -114,40 +114,6 @@ void check_spec(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::
   check_memory(execution, ours + native + tiles + file_bytes, name);
 }
 
-/// OpenEXR takes the memory that an attribute's length asks for before it looks whether the file is
-/// that long. This walks over the attributes first. A header is a list of (name, type, length, value)
-/// that ends with an empty name; a file of many parts has a list of headers that ends with an empty one.
-void check_exr_header(ByteView bytes, const std::string& name) {
-  const auto fail = [&] {
-    fail_input(name, "cannot be decoded: an EXR header that is cut short or corrupt");
-  };
-  constexpr std::size_t kMagicAndVersion = 8, kMultiPart = 0x10;
-  if (bytes.size() < kMagicAndVersion) fail();
-  const bool many = (std::to_integer<unsigned>(bytes[5]) & kMultiPart) != 0;
-  ByteView rest = bytes.subspan(kMagicAndVersion);
-  const auto skip = [&](std::size_t count) {
-    if (count > rest.size()) fail();
-    rest = rest.subspan(count);
-  };
-  /// Passes a text with its zero; true if it was empty.
-  const auto skip_text = [&] {
-    const auto end = std::find(rest.begin(), rest.end(), std::byte{0});
-    const auto length = static_cast<std::size_t>(end - rest.begin());
-    skip(length + 1);
-    return length == 0;
-  };
-  do {
-    while (!skip_text()) {
-      skip_text();
-      std::uint32_t length = 0;
-      if (rest.size() < sizeof length) fail();
-      std::memcpy(&length, rest.data(), sizeof length);
-      skip(sizeof length);
-      skip(length);
-    }
-  } while (many && !rest.empty() && rest[0] != std::byte{0});
-}
-
 template <class Sample>
 void to_float(const std::vector<std::byte>& native, std::vector<std::byte>& samples) {
   for (std::size_t i = 0; i < samples.size() / sizeof(float); ++i) {

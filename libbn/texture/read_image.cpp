@@ -37,7 +37,7 @@ constexpr Signature kSignatures[] = {
 };
 
 /// Formats without a signature of their own, or a short one: known by the extension.
-constexpr std::string_view kExtensions[] = {"bmp", "hdr", "jpeg", "jpg", "pfm", "pgm", "ppm", "tga"};
+constexpr std::string_view kExtensions[] = {"hdr", "jpeg", "jpg", "pfm", "pgm", "ppm", "tga"};
 
 bool begins_with(ByteView bytes, std::string_view signature) {
   return bytes.size() >= signature.size() &&

@@ -1,5 +1,5 @@
 // Any bytes: the reader answers with an image or a bn::Error, within its memory limit; and an image
-// that came out goes through our own formats unchanged. With BN_FUZZ_NAME=x.bmp in the environment the
+// that came out goes through our own formats unchanged. With BN_FUZZ_NAME=x.tga in the environment the
 // bytes are those of a format that is known by its extension.
 #include <cstdio>
 #include <cstdlib>

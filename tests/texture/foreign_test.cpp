@@ -167,10 +167,13 @@ TEST(ForeignFile, MoreThan64ChannelsAreRefused) {
 
 TEST(ForeignFile, OtherFormatsAreKnownByTheirExtension) {
   const Image image = random_image({9, 7}, 3, SampleType::u8);
-  for (const char* name : {"bmp", "tga", "ppm"}) {
+  for (const char* name : {"tga", "ppm"}) {
     const Bytes bytes = written(name, ImageSpec(9, 7, 3, TypeDesc::UINT8), samples_of<std::uint8_t>(image));
     EXPECT_TRUE(same_picture(decoded(bytes, std::string("a.") + name), image)) << name;
   }
+  // A damaged BMP can crash OpenImageIO 2.4: not read.
+  const Bytes bmp = written("bmp", ImageSpec(9, 7, 3, TypeDesc::UINT8), samples_of<std::uint8_t>(image));
+  expect_error(ErrorCode::invalid_input, [&] { decoded(bmp, "a.bmp"); });
 }
 
 /// A PNG made with libpng, as the test says.

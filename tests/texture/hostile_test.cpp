@@ -200,6 +200,19 @@ TEST(HostileHeader, ExrAttributeLengths) {
   }
 }
 
+TEST(HostileHeader, ExrTypesThatEndElsewhereThanTheirLength) {
+  // OpenEXR reads a box of 16 bytes whatever its length says; what follows would be taken for the next
+  // attribute, with a length of gigabytes.
+  Bytes forged = valid_file("f.exr");
+  const std::string_view text(reinterpret_cast<const char*>(forged.data()), forged.size());
+  const std::size_t length = text.find(std::string_view("box2i\0", 6)) + 6;
+  forged[length] = 20;
+  forged.insert(forged.begin() + static_cast<std::ptrdiff_t>(length) + 4 + 16, 4, 'x');
+  const auto error = error_for(forged);
+  ASSERT_TRUE(error.has_value());
+  EXPECT_NE(error->what.find("header"), std::string::npos) << error->what;
+}
+
 TEST(HostileHeader, BinSizes) {
   for (const std::size_t member : {8u, 12u, 16u, 20u, 24u, 28u, 32u, 36u, 40u, 44u}) {
     for (const std::uint32_t value : {0u, 4u, 7u, 0x7fffffffu, 0xffffffffu}) {

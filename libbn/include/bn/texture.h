@@ -83,7 +83,7 @@ struct FileContent {
 };
 
 /// Reads the first picture of a PNG, EXR or TIFF file, of our own .bin and .h (all known by their
-/// content), and of BMP, HDR, JPEG, PFM, PGM, PPM and TGA (known by the extension). Samples are those
+/// content), and of HDR, JPEG, PFM, PGM, PPM and TGA (known by the extension). Samples are those
 /// stored: no colour management, no multiplication by alpha. Palettes and 1, 2 and 4 bit grey are
 /// expanded to 8bit, half is widened to float; signed and 32 bit integers become floats of the same
 /// value, rounded to 24 bits; double is refused.
