@@ -79,12 +79,15 @@ struct Market {
 };
 
 /// Prices and costs of the auction are in 1/kPriceScale of a unit of cost. Finer prices leave fewer rows to
-/// the exact finish but cost more bids; 1/16 is quickest. An even number of bits, so that levels can be scaled for L2.
+/// the exact finish but cost more bids; 1/16 is quickest. An even number of bits, so that levels can be
+/// scaled for L2.
 inline constexpr int kPriceScaleBits = 4;
 inline constexpr int kPriceScale = 1 << kPriceScaleBits;
 
 /// What levels are multiplied by so that costs are multiplied by kPriceScale.
-constexpr int level_scale(Metric metric) { return metric == Metric::l2 ? 1 << (kPriceScaleBits / 2) : kPriceScale; }
+constexpr int level_scale(Metric metric) {
+  return metric == Metric::l2 ? 1 << (kPriceScaleBits / 2) : kPriceScale;
+}
 
 enum class Outcome {
   done,        ///< every row has a column
@@ -92,15 +95,16 @@ enum class Outcome {
   overflow,    ///< a price passed the limit; the market is of no more use
 };
 
-/// One level of the auction: on return each assigned row's column is within `epsilon` (raised where a price war
-/// would take too long; the value used comes back) of its cheapest.
+/// One level of the auction: on return each assigned row's column is within `epsilon` (raised where a price
+/// war would take too long; the value used comes back) of its cheapest.
 struct AuctionLevel {
   Outcome outcome;
   std::int64_t epsilon;
 };
 /// Reports the tile's area as finished work.
 template <class T>
-AuctionLevel run_auction(Market<T>& market, std::int64_t epsilon, const Execution& execution, ProgressMeter& progress);
+AuctionLevel run_auction(Market<T>& market, std::int64_t epsilon, const Execution& execution,
+                         ProgressMeter& progress);
 
 /// Frees every row whose column is not its cheapest, then completes the assignment, optimally.
 template <class T>

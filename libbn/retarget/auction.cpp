@@ -7,9 +7,9 @@
 // epsilons settle the prices roughly in few bids; each finer level starts from them and frees only the rows
 // that are not within the new epsilon.
 //
-// The outbid row bids next while its part of the tile is in the cache; for the same reason rows start block by
-// block. Each bid waits for the one before it in its chain, so a few chains, each with its own share of the
-// block's rows, take turns: the processor overlaps their waits. The order is fixed, hence the result.
+// The outbid row bids next while its part of the tile is in the cache; for the same reason rows start block
+// by block. Each bid waits for the one before it in its chain, so a few chains, each with its own share of
+// the block's rows, take turns: the processor overlaps their waits. The order is fixed, hence the result.
 //
 // A level that makes more bids than kPatience a row is in a price war, rows outbidding each other by epsilon
 // over scarce columns: epsilon is raised until it ends, which costs no correctness.
@@ -43,7 +43,8 @@ class Auction {
 
   AuctionLevel run() {
     const auto [width, height] = market_.layout.size();
-    // All rows are looked at before the first bid: a freed row's column draws its neighbours' chains to an end.
+    // All rows are looked at before the first bid: a freed row's column draws its neighbours' chains to an
+    // end.
     std::vector<std::int32_t> free_rows;
     std::vector<std::size_t> block_ends;
     std::vector<std::int64_t> block_areas;
@@ -101,7 +102,8 @@ class Auction {
     return Outcome::done;
   }
 
-  /// `bidder` takes its cheapest column and becomes who is outbid, if anyone. False if a price passes the limit.
+  /// `bidder` takes its cheapest column and becomes who is outbid, if anyone. False if a price passes the
+  /// limit.
   HWY_INLINE bool bid(Holder& bidder) {
     const auto best = window_.cheapest(bidder);
     const std::int32_t column = window_.column(bidder.row, best.position);

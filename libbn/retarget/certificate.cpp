@@ -27,7 +27,8 @@ void LowerMinima(std::int64_t* least, const std::int64_t* a, const std::int64_t*
   const hn::ScalableTag<std::int64_t> d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const auto difference = hn::Sub(hn::LoadU(d, a + i), hn::LoadU(d, b + i));
-    const auto cost = metric == Metric::l2 ? hn::Mul(difference, difference) : hn::Max(difference, hn::Neg(difference));
+    const auto cost =
+        metric == Metric::l2 ? hn::Mul(difference, difference) : hn::Max(difference, hn::Neg(difference));
     const auto value = hn::Add(hn::ShiftLeftSame(cost, scale_bits), hn::LoadU(d, price + i));
     hn::StoreU(hn::Min(hn::LoadU(d, least + i), value), d, least + i);
   }
@@ -54,8 +55,9 @@ void copy_line(const T* line, int width, int before, int after, bool wrapped, st
                std::vector<std::int64_t>& to) {
   for (int x = -before; x < width + after; ++x) {
     const bool inside = x >= 0 && x < width;
-    to[static_cast<std::size_t>(x + before)] =
-        inside ? std::int64_t{line[x]} : wrapped ? std::int64_t{line[wrap(x, width)]} : blocked;
+    to[static_cast<std::size_t>(x + before)] = inside    ? std::int64_t{line[x]}
+                                               : wrapped ? std::int64_t{line[wrap(x, width)]}
+                                                         : blocked;
   }
 }
 
@@ -64,7 +66,8 @@ void copy_line(const T* line, int width, int before, int after, bool wrapped, st
 std::int64_t certified_lower_bound(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                                    const std::vector<std::int64_t>& price, int scale_bits) {
   const auto [width, height] = levels.size();
-  const Grid<std::int32_t> from = shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
+  const Grid<std::int32_t> from =
+      shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
   const Grid<std::int32_t> onto = shifted(levels, options.motion.x, options.motion.y);
   const std::vector<ReachRow> window = reach_rows(levels.size(), options);
   int before = 0, after = 0;
@@ -84,12 +87,12 @@ std::int64_t certified_lower_bound(const Grid<std::int32_t>& levels, const Retar
       if (!options.wrap && (to_y < 0 || to_y >= height)) continue;
       to_y = wrap(to_y, height);
       copy_line(&onto(0, to_y), width, before, after, true, 0, onto_line);
-      copy_line(price.data() + static_cast<std::size_t>(to_y) * width, width, before, after, options.wrap, kBlocked,
-                price_line);
+      copy_line(price.data() + static_cast<std::size_t>(to_y) * width, width, before, after, options.wrap,
+                kBlocked, price_line);
       for (int x = row.x_low; x <= row.x_high; ++x) {
-        HWY_DYNAMIC_DISPATCH(LowerMinima)(
-            least.data(), from_line.data(), onto_line.data() + before + x, price_line.data() + before + x,
-                     static_cast<std::size_t>(width), options.metric, scale_bits);
+        HWY_DYNAMIC_DISPATCH(LowerMinima)
+        (least.data(), from_line.data(), onto_line.data() + before + x, price_line.data() + before + x,
+         static_cast<std::size_t>(width), options.metric, scale_bits);
       }
     }
     for (int x = 0; x < width; ++x) bound += least[static_cast<std::size_t>(x)];

@@ -23,8 +23,8 @@ std::int64_t retarget_energy(const Grid<std::int32_t>& levels, const Grid<Offset
   for (int y = 0; y < levels.height(); ++y) {
     for (int x = 0; x < levels.width(); ++x) {
       const Offset r = move(x, y);
-      const std::int32_t landing = levels.torus(std::int64_t{x} + r.x + options.step.x,
-                                                std::int64_t{y} + r.y + options.step.y);
+      const std::int32_t landing =
+          levels.torus(std::int64_t{x} + r.x + options.step.x, std::int64_t{y} + r.y + options.step.y);
       energy += level_cost(levels(x, y), landing, options.metric);
     }
   }

@@ -16,7 +16,8 @@ namespace bn {
 
 class PaddedLayout {
  public:
-  PaddedLayout(Extent size, const std::vector<ReachRow>& window, bool wrapped) : size_(size), wrapped_(wrapped) {
+  PaddedLayout(Extent size, const std::vector<ReachRow>& window, bool wrapped)
+      : size_(size), wrapped_(wrapped) {
     for (const ReachRow& row : window) {
       left_ = std::max(left_, -row.x_low);
       right_ = std::max(right_, row.x_high);
@@ -36,8 +37,12 @@ class PaddedLayout {
   std::int32_t cell(int x, int y) const { return (y + top_) * stride() + x + left_; }
   /// Position in the tile; the border's is outside it.
   Offset position(std::int32_t cell) const {
-    // Exact for 32-bit operands: D. Lemire, O. Kaser, N. Kurz, "Faster remainder by direct computation", 2019.
-    const int line = stride_ == 1 ? cell : static_cast<int>((static_cast<Wide>(reciprocal_) * static_cast<std::uint32_t>(cell)) >> 64);
+    // Exact for 32-bit operands: D. Lemire, O. Kaser, N. Kurz, "Faster remainder by direct computation",
+    // 2019.
+    const int line =
+        stride_ == 1
+            ? cell
+            : static_cast<int>((static_cast<Wide>(reciprocal_) * static_cast<std::uint32_t>(cell)) >> 64);
     return {cell - line * stride() - left_, line - top_};
   }
 

@@ -12,7 +12,8 @@ Market<T>::Market(const Grid<std::int32_t>& levels, const RetargetOptions& optio
       price(row_level.size(), options.wrap ? T{0} : kBlocked),
       holder(row_level.size(), Holder{kUnassigned, 0}),
       column_of(row_level.size(), kUnassigned) {
-  const Grid<std::int32_t> from = shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
+  const Grid<std::int32_t> from =
+      shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
   const Grid<std::int32_t> onto = shifted(levels, options.motion.x, options.motion.y);
   layout.for_each_pixel([&](std::int32_t cell, int x, int y) {
     row_level[static_cast<std::size_t>(cell)] = from(x, y);
@@ -51,7 +52,8 @@ template <class T>
 std::vector<std::int64_t> Market<T>::pixel_prices() const {
   std::vector<std::int64_t> prices;
   prices.reserve(static_cast<std::size_t>(layout.size().area()));
-  layout.for_each_pixel([&](std::int32_t cell, int, int) { prices.push_back(price[static_cast<std::size_t>(cell)]); });
+  layout.for_each_pixel(
+      [&](std::int32_t cell, int, int) { prices.push_back(price[static_cast<std::size_t>(cell)]); });
   return prices;
 }
 

@@ -33,8 +33,9 @@ std::vector<std::int64_t> arrivals(const Grid<Offset>& move) {
       auto& first = from[static_cast<std::size_t>(std::int64_t{to_y} * width + to_x)];
       if (first != kNobody) {
         fail(pixel, width,
-             fmt::format("no bijection: moves by ({}, {}) to ({}, {}), where the seed of pixel ({}, {}) also goes", r.x,
-                         r.y, to_x, to_y, first % width, first / width),
+             fmt::format(
+                 "no bijection: moves by ({}, {}) to ({}, {}), where the seed of pixel ({}, {}) also goes",
+                 r.x, r.y, to_x, to_y, first % width, first / width),
              "one seed for each pixel");
       }
       first = pixel;

@@ -30,15 +30,18 @@ void check_options(const RetargetOptions& options) {
   const int reachable = kMaxMove - options.radius;
   for (const int m : {options.motion.x, options.motion.y}) {
     if (m < -reachable || m > reachable) {
-      refuse("motion", fmt::format("motion ({}, {}) with radius {}", options.motion.x, options.motion.y, options.radius),
-             fmt::format("-{0}..{0} on each axis, so that |motion| + radius <= {1}", reachable, kMaxMove),
-             "a move is stored in 8 bits; use a smaller motion or radius");
+      refuse(
+          "motion",
+          fmt::format("motion ({}, {}) with radius {}", options.motion.x, options.motion.y, options.radius),
+          fmt::format("-{0}..{0} on each axis, so that |motion| + radius <= {1}", reachable, kMaxMove),
+          "a move is stored in 8 bits; use a smaller motion or radius");
     }
   }
   if (options.reach != Reach::chebyshev && options.reach != Reach::euclidean) {
     refuse("reach", "unknown reach", "chebyshev or euclidean");
   }
-  if (options.metric != Metric::l1 && options.metric != Metric::l2) refuse("metric", "unknown metric", "l1 or l2");
+  if (options.metric != Metric::l1 && options.metric != Metric::l2)
+    refuse("metric", "unknown metric", "l1 or l2");
   if (!(options.gap >= 0.0 && options.gap < 1.0)) {
     refuse("gap", fmt::format("gap {}", options.gap), "0 <= gap < 1; 0.005 means half a percent");
   }
@@ -50,7 +53,8 @@ std::int64_t check_levels(const Grid<std::int32_t>& levels, Metric metric) {
   for (const auto* extreme : {&*low, &*high}) {
     if (*extreme >= 0 && *extreme <= kMaxLevel) continue;
     const auto at = static_cast<std::int64_t>(extreme - levels.data());
-    refuse("levels", fmt::format("level {} at pixel ({}, {})", *extreme, at % levels.width(), at / levels.width()),
+    refuse("levels",
+           fmt::format("level {} at pixel ({}, {})", *extreme, at % levels.width(), at / levels.width()),
            fmt::format("0..{}", kMaxLevel));
   }
   const std::int64_t largest = level_cost(*low, *high, metric);
@@ -83,7 +87,8 @@ std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options) {
 
 std::uint64_t exact_memory_bytes(Extent size, const RetargetOptions& options) {
   const auto padded = [&](int length) {
-    const std::int64_t border = std::min<std::int64_t>(options.radius, options.wrap ? (length + 1) / 2 : length - 1);
+    const std::int64_t border =
+        std::min<std::int64_t>(options.radius, options.wrap ? (length + 1) / 2 : length - 1);
     return static_cast<std::uint64_t>(length + 2 * border);
   };
   return padded(size.width) * padded(size.height) * 64;

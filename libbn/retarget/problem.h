@@ -31,8 +31,8 @@ void check_options(const RetargetOptions& options);
 /// energy could exceed 2^62. Returns the largest cost that a pair of pixels can have.
 std::int64_t check_levels(const Grid<std::int32_t>& levels, Metric metric);
 
-/// Memory of the exact solver for one tile: 64 bytes for each pixel of the tile and of a border of `radius` around it
-/// (but no wider than the tile reaches around itself).
+/// Memory of the exact solver for one tile: 64 bytes for each pixel of the tile and of a border of `radius`
+/// around it (but no wider than the tile reaches around itself).
 std::uint64_t exact_memory_bytes(Extent size, const RetargetOptions& options);
 
 /// The displacements (k.x, y) with x_low <= k.x <= x_high.

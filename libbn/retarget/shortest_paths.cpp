@@ -2,8 +2,8 @@
 //
 // The state is a partial assignment with integer prices in which each assigned row holds a column that is
 // cheapest for it. The reduced cost of an arc is its cost + price less the row's cheapest: 0 on assigned
-// arcs, at least 0 on all. A search grows shortest-path trees (Dijkstra) from some free rows together, through
-// columns into the rows that hold them, up to a length `limit`. Raising the price of each column
+// arcs, at least 0 on all. A search grows shortest-path trees (Dijkstra) from some free rows together,
+// through columns into the rows that hold them, up to a length `limit`. Raising the price of each column
 // reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then each
 // tree that has reached a free column assigns its root along the path. The trees share no column, so all of
 // them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
@@ -12,10 +12,10 @@
 // once, with limit 1, walk along arcs of cost 0 and assign most. Of the last ones a single tree soon floods
 // the tile and takes all the free columns; so these search one by one and stop at the first free column.
 //
-// H. W. Kuhn, "The Hungarian method for the assignment problem", 1955; R. Jonker and A. Volgenant, "A shortest
-// augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987; A. V. Goldberg
-// and R. Kennedy, "An efficient cost scaling algorithm for the assignment problem", 1995, for taking many
-// paths in a phase.
+// H. W. Kuhn, "The Hungarian method for the assignment problem", 1955; R. Jonker and A. Volgenant, "A
+// shortest augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987; A.
+// V. Goldberg and R. Kennedy, "An efficient cost scaling algorithm for the assignment problem", 1995, for
+// taking many paths in a phase.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "retarget/shortest_paths.cpp"
@@ -46,9 +46,7 @@ class PathSearch {
     settled_.reserve(reached_.capacity());
   }
 
-  Outcome run() {
-    return assign_together() && assign_one_by_one() ? Outcome::done : Outcome::overflow;
-  }
+  Outcome run() { return assign_together() && assign_one_by_one() ? Outcome::done : Outcome::overflow; }
 
  private:
   static constexpr T kUnreached = Market<T>::kBlocked;
@@ -72,7 +70,9 @@ class PathSearch {
       const std::size_t before = free_rows_.size(), reached = free_columns_.size();
       if (!raise_prices()) return false;
       augment(free_rows_);
-      std::erase_if(free_rows_, [&](std::int32_t row) { return market_.column_of[static_cast<std::size_t>(row)] != kUnassigned; });
+      std::erase_if(free_rows_, [&](std::int32_t row) {
+        return market_.column_of[static_cast<std::size_t>(row)] != kUnassigned;
+      });
       if ((before - free_rows_.size()) * 4 >= before) continue;
       if (reached * 2 >= before || limit >= kMostLimit / 2) return true;
       limit *= 2;
@@ -83,7 +83,8 @@ class PathSearch {
   /// Searches from each free row in turn, up to the nearest free column. False on overflow.
   bool assign_one_by_one() {
     for (const std::int32_t root : free_rows_) {
-      for (T limit = 1; market_.column_of[static_cast<std::size_t>(root)] == kUnassigned; limit = std::min<T>(limit * 2, kMostLimit)) {
+      for (T limit = 1; market_.column_of[static_cast<std::size_t>(root)] == kUnassigned;
+           limit = std::min<T>(limit * 2, kMostLimit)) {
         grow_trees({&root, 1}, limit, true);
         if (!raise_prices()) return false;
         augment({&root, 1});
@@ -92,7 +93,8 @@ class PathSearch {
     return true;
   }
 
-  /// Grows trees from `roots` up to length `limit`, or to the first free column; limit_ is the length reached.
+  /// Grows trees from `roots` up to length `limit`, or to the first free column; limit_ is the length
+  /// reached.
   void grow_trees(std::span<const std::int32_t> roots, T limit, bool to_first_free) {
     for (const std::int32_t column : reached_) market_.layout.store(distance_, column, kUnreached);
     reached_.clear();
@@ -123,7 +125,9 @@ class PathSearch {
     }
   }
 
-  bool stale(const Later& entry) const { return distance_[static_cast<std::size_t>(entry.column)] != entry.distance; }
+  bool stale(const Later& entry) const {
+    return distance_[static_cast<std::size_t>(entry.column)] != entry.distance;
+  }
   void pop_later() {
     std::pop_heap(later_.begin(), later_.end());
     later_.pop_back();
@@ -190,7 +194,8 @@ class PathSearch {
     for (std::int32_t column : free_columns_) {
       const auto at = static_cast<std::size_t>(column);
       const std::int32_t root = roots[static_cast<std::size_t>(root_[at])];
-      if (distance_[at] > limit_ || market_.column_of[static_cast<std::size_t>(root)] != kUnassigned) continue;
+      if (distance_[at] > limit_ || market_.column_of[static_cast<std::size_t>(root)] != kUnassigned)
+        continue;
       for (std::int32_t row = kUnassigned; row != root;) {
         row = parent_[static_cast<std::size_t>(column)];
         const std::int32_t given_up = market_.column_of[static_cast<std::size_t>(row)];

@@ -1,5 +1,5 @@
-// solve_retarget: checks, then auction, exact finish and certificate (assignment.h), in 32-bit prices where they
-// fit and in 64-bit ones otherwise.
+// solve_retarget: checks, then auction, exact finish and certificate (assignment.h), in 32-bit prices where
+// they fit and in 64-bit ones otherwise.
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 namespace bn {
 namespace {
 
-/// Where the auction starts: a quarter of the usual distance between a level and the nearest one in its window,
-/// as a cost. Coarser only wastes bids; too fine is put right by the auction itself.
+/// Where the auction starts: a quarter of the usual distance between a level and the nearest one in its
+/// window, as a cost. Coarser only wastes bids; too fine is put right by the auction itself.
 std::int64_t first_epsilon(const Grid<std::int32_t>& levels, const RetargetOptions& options) {
   const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
   std::int64_t columns = 0;
@@ -36,8 +36,8 @@ bool close_enough(std::int64_t energy, std::int64_t bound, double gap) {
   return static_cast<double>(energy - bound) <= gap * static_cast<double>(bound);
 }
 
-RetargetTile measured_tile(const Grid<std::int32_t>& levels, const RetargetOptions& options, Grid<Offset> move,
-                           std::int64_t lower_bound) {
+RetargetTile measured_tile(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                           Grid<Offset> move, std::int64_t lower_bound) {
   RetargetTile tile;
   check_permutation(move, options);
   tile.start_energy = retarget_energy(levels, Grid<Offset>(levels.size(), options.motion), options);
@@ -63,7 +63,8 @@ std::optional<RetargetTile> solve_with(const Grid<std::int32_t>& levels, const R
     }
     if (level.outcome == Outcome::incomplete) break;
     if (options.gap > 0.0) {
-      const std::int64_t bound = certified_lower_bound(levels, options, market.pixel_prices(), kPriceScaleBits);
+      const std::int64_t bound =
+          certified_lower_bound(levels, options, market.pixel_prices(), kPriceScaleBits);
       Grid<Offset> move = market.moves(options);
       if (close_enough(retarget_energy(levels, move, options), bound, options.gap)) {
         return measured_tile(levels, options, std::move(move), bound);
@@ -97,7 +98,8 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
   if (width != PriceWidth::bits64 && largest_cost * kPriceScale < Market<std::int32_t>::kMaxCost) {
     tile = solve_with<std::int32_t>(levels, options, execution, progress);
   }
-  if (!tile && width != PriceWidth::bits32) tile = solve_with<std::int64_t>(levels, options, execution, progress);
+  if (!tile && width != PriceWidth::bits32)
+    tile = solve_with<std::int64_t>(levels, options, execution, progress);
   if (!tile) {
     throw Error({.code = ErrorCode::over_limit,
                  .what = fmt::format("prices outgrow {} bits", width == PriceWidth::bits32 ? 32 : 64),

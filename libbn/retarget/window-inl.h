@@ -45,7 +45,8 @@ class Window {
       for (int x = line.x_low; x <= line.x_high; x += lanes) {
         const int columns = std::min(lanes, line.x_high - x + 1);
         runs_.push_back({origin + x, position});
-        if (groups_.empty() || groups_.back().columns != columns) groups_.push_back({columns, runs_.size() - 1, 0});
+        if (groups_.empty() || groups_.back().columns != columns)
+          groups_.push_back({columns, runs_.size() - 1, 0});
         groups_.back().end = runs_.size();
         for (int i = 0; i < columns; ++i) shifts_.push_back(origin + x + i);
         position += columns;
@@ -64,7 +65,8 @@ class Window {
     for (const RunGroup& group : groups_) {
       const auto columns = hn::FirstN(d, static_cast<std::size_t>(group.columns));
       for (const Run* run = runs + group.begin; run != runs + group.end; ++run) {
-        visit(*run, columns, hn::Add(hn::LoadU(d, prices + run->shift), costs(row_level, levels + run->shift)));
+        visit(*run, columns,
+              hn::Add(hn::LoadU(d, prices + run->shift), costs(row_level, levels + run->shift)));
       }
     }
   }
@@ -94,7 +96,8 @@ class Window {
     const V place = hn::IfThenElse(hn::Eq(first, least), hn::Add(position, hn::Iota(d, T{0})), blocked);
     const V lowest = hn::MinOfLanes(d, place);
     const V others = hn::IfThenElse(hn::Eq(place, lowest), second, first);
-    return {hn::GetLane(least), hn::GetLane(hn::MinOfLanes(d, others)), static_cast<std::int32_t>(hn::GetLane(lowest))};
+    return {hn::GetLane(least), hn::GetLane(hn::MinOfLanes(d, others)),
+            static_cast<std::int32_t>(hn::GetLane(lowest))};
   }
 
  private:
@@ -116,11 +119,11 @@ class Window {
   std::vector<std::int32_t> shifts_;
 };
 
-/// With column_of up to date: frees the rows of a rectangle whose column is more than `slack` above their cheapest, and appends all free
-/// rows of the rectangle to `free_rows`, in index order.
+/// With column_of up to date: frees the rows of a rectangle whose column is more than `slack` above their
+/// cheapest, and appends all free rows of the rectangle to `free_rows`, in index order.
 template <class T, bool kSquare>
-void free_discontent_rows(const Window<T, kSquare>& window, Market<T>& market, T slack, Offset origin, Extent size,
-                          std::vector<std::int32_t>& free_rows) {
+void free_discontent_rows(const Window<T, kSquare>& window, Market<T>& market, T slack, Offset origin,
+                          Extent size, std::vector<std::int32_t>& free_rows) {
   for (int y = origin.y; y < origin.y + size.height; ++y) {
     for (int x = origin.x; x < origin.x + size.width; ++x) {
       const std::int32_t row = market.layout.cell(x, y);

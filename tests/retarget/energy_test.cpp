@@ -24,7 +24,8 @@ TEST(RetargetEnergy, ByHand) {
   EXPECT_EQ(retarget_energy(levels, Grid<Offset>({3, 1}), options), 19 + 4 + 15);
 }
 
-ErrorCode solve_code(const Grid<std::int32_t>& levels, const RetargetOptions& options, const Execution& execution = {}) {
+ErrorCode solve_code(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                     const Execution& execution = {}) {
   try {
     solve_retarget(levels, options, execution);
   } catch (const Error& error) {
@@ -45,9 +46,15 @@ TEST(RetargetOptions, OutOfRangeIsRefusedBeforeTheWork) {
   for (const auto& bad : {
            with([](O& o) { o.radius = 0; }),
            with([](O& o) { o.radius = 33; }),
-           with([](O& o) { o.motion = {122, 0}; }),
-           with([](O& o) { o.motion = {0, -122}; }),
-           with([](O& o) { o.motion = {std::numeric_limits<int>::min(), 0}; }),
+           with([](O& o) {
+             o.motion = {122, 0};
+           }),
+           with([](O& o) {
+             o.motion = {0, -122};
+           }),
+           with([](O& o) {
+             o.motion = {std::numeric_limits<int>::min(), 0};
+           }),
            with([](O& o) { o.gap = -0.1; }),
            with([](O& o) { o.gap = 1.0; }),
            with([](O& o) { o.gap = std::numeric_limits<double>::quiet_NaN(); }),
@@ -63,7 +70,8 @@ TEST(RetargetOptions, OutOfRangeIsRefusedBeforeTheWork) {
   EXPECT_EQ(solve_code(Grid<std::int32_t>(), {}), ErrorCode::invalid_input);
   EXPECT_EQ(solve_code(Grid<std::int32_t>({0, 4}), {}), ErrorCode::invalid_input);
   EXPECT_EQ(solve_code(levels, {}, {.threads = -1}), ErrorCode::invalid_input);
-  EXPECT_EQ(solve_code(Grid<std::int32_t>({256, 256}), {}, {.memory_limit_bytes = 1 << 20}), ErrorCode::over_limit);
+  EXPECT_EQ(solve_code(Grid<std::int32_t>({256, 256}), {}, {.memory_limit_bytes = 1 << 20}),
+            ErrorCode::over_limit);
   EXPECT_THROW(retarget_energy(levels, Grid<Offset>({4, 5}), {}), Error);
   for (const int range : {-1, 9}) EXPECT_THROW(solve_motion_set(levels, {}, range), Error);
   RetargetOptions far;

@@ -17,7 +17,8 @@ const Execution kOneThread{.threads = 1};
 Grid<std::int32_t> shuffled_levels(Extent size, std::int32_t bound, std::uint64_t seed) {
   Grid<std::int32_t> levels(size);
   const auto count = static_cast<std::int64_t>(levels.count());
-  for (std::int64_t i = 0; i < count; ++i) levels[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i * bound / count);
+  for (std::int64_t i = 0; i < count; ++i)
+    levels[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i * bound / count);
   for (std::size_t i = levels.count() - 1; i > 0; --i) {
     const auto bits = static_cast<std::uint32_t>(random_bits(seed, 3, i));
     std::swap(levels[i], levels[random_below(bits, static_cast<std::uint32_t>(i + 1))]);
@@ -40,7 +41,12 @@ std::vector<RetargetOptions> option_spread(int radius) {
   for (const Reach reach : {Reach::chebyshev, Reach::euclidean}) {
     for (const Metric metric : {Metric::l1, Metric::l2}) {
       for (const bool wrapped : {true, false}) {
-        spread.push_back({.step = {13, 8}, .motion = {-3, 2}, .radius = radius, .reach = reach, .metric = metric, .wrap = wrapped});
+        spread.push_back({.step = {13, 8},
+                          .motion = {-3, 2},
+                          .radius = radius,
+                          .reach = reach,
+                          .metric = metric,
+                          .wrap = wrapped});
       }
     }
   }
@@ -115,7 +121,8 @@ TEST(ExactSolver, AnyPricesGiveABound) {
   for (const RetargetOptions& options : option_spread(4)) {
     const std::int64_t optimum = solve_retarget(levels, options, kOneThread).energy;
     std::vector<std::int64_t> price(levels.count());
-    for (std::size_t i = 0; i < price.size(); ++i) price[i] = static_cast<std::int64_t>(random_bits(11, 4, i) % 200);
+    for (std::size_t i = 0; i < price.size(); ++i)
+      price[i] = static_cast<std::int64_t>(random_bits(11, 4, i) % 200);
     EXPECT_LE(certified_lower_bound(levels, options, price, 0), optimum);
     EXPECT_LE(certified_lower_bound(levels, options, price, 4), optimum);
     // Prices may be anything, also large: adding a constant to all changes nothing.
@@ -181,7 +188,8 @@ TEST(ExactSolver, EarlyStopsKeepTheirPromise) {
     const RetargetTile tile = solve_retarget(levels, options, kOneThread);
     EXPECT_LE(tile.lower_bound, optimum);
     EXPECT_GE(tile.energy, optimum);
-    EXPECT_LE(static_cast<double>(tile.energy - tile.lower_bound), gap * static_cast<double>(tile.lower_bound));
+    EXPECT_LE(static_cast<double>(tile.energy - tile.lower_bound),
+              gap * static_cast<double>(tile.lower_bound));
     EXPECT_NO_THROW(check_permutation(tile.move, options));
     EXPECT_TRUE(gap < 0.9 || !tile.optimal()) << "stopped early";
   }
@@ -227,8 +235,9 @@ TEST(ExactSolver, StopsWhenAsked) {
   };
   EXPECT_EQ(code({.threads = 2, .stop = source.get_token()}), ErrorCode::cancelled);
   std::stop_source later;
-  EXPECT_EQ(code({.threads = 1, .stop = later.get_token(), .progress = [&](double) { later.request_stop(); }}),
-            ErrorCode::cancelled);
+  EXPECT_EQ(
+      code({.threads = 1, .stop = later.get_token(), .progress = [&](double) { later.request_stop(); }}),
+      ErrorCode::cancelled);
 }
 
 TEST(ExactSolver, ProgressRisesToOne) {
@@ -244,12 +253,17 @@ TEST(ExactSolver, ProgressRisesToOne) {
 TEST(ExactSolver, GoldenBytes) {
   const auto hash = [](const Grid<Offset>& move) {
     std::uint64_t h = 0xcbf29ce484222325;
-    for (const Offset& r : move) h = ((h ^ static_cast<std::uint64_t>(r.x + 128)) * 0x100000001b3 ^ static_cast<std::uint64_t>(r.y + 128)) * 0x100000001b3;
+    for (const Offset& r : move)
+      h = ((h ^ static_cast<std::uint64_t>(r.x + 128)) * 0x100000001b3 ^
+           static_cast<std::uint64_t>(r.y + 128)) *
+          0x100000001b3;
     return h;
   };
   const auto levels = shuffled_levels({96, 80}, 256, 21);
   EXPECT_EQ(hash(solve_retarget(levels, {.step = {71, 45}}, kOneThread).move), 8124713788109302565u);
-  EXPECT_EQ(hash(solve_retarget(levels, {.step = {71, 45}, .metric = Metric::l2, .wrap = false}, kOneThread).move), 148627514260141789u);
+  EXPECT_EQ(
+      hash(solve_retarget(levels, {.step = {71, 45}, .metric = Metric::l2, .wrap = false}, kOneThread).move),
+      148627514260141789u);
 }
 
 }  // namespace

@@ -33,10 +33,12 @@ inline std::vector<std::vector<std::int64_t>> cost_matrix(const Grid<std::int32_
       for (int k_y = -r; k_y <= r; ++k_y) {
         for (int k_x = -r; k_x <= r; ++k_x) {
           if (options.reach == Reach::euclidean && k_x * k_x + k_y * k_y > r * r) continue;
-          const int to_x = wrap(x + options.step.x, width) + k_x, to_y = wrap(y + options.step.y, height) + k_y;
+          const int to_x = wrap(x + options.step.x, width) + k_x,
+                    to_y = wrap(y + options.step.y, height) + k_y;
           const bool inside = to_x >= 0 && to_x < width && to_y >= 0 && to_y < height;
           if (!options.wrap && !inside) continue;
-          const int v_x = wrap(x + k_x + options.motion.x, width), v_y = wrap(y + k_y + options.motion.y, height);
+          const int v_x = wrap(x + k_x + options.motion.x, width),
+                    v_y = wrap(y + k_y + options.motion.y, height);
           const std::int64_t difference =
               std::int64_t{levels(x, y)} - levels.torus(v_x + options.step.x, v_y + options.step.y);
           matrix[static_cast<std::size_t>(y * width + x)][static_cast<std::size_t>(v_y * width + v_x)] =

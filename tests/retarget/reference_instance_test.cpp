@@ -13,7 +13,8 @@ class ReferenceInstance : public testing::Test {
  protected:
   void SetUp() override {
     const std::filesystem::path path = BN_REFERENCE_MASK;
-    if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is absent; it is not part of the repository";
+    if (!std::filesystem::exists(path))
+      GTEST_SKIP() << path << " is absent; it is not part of the repository";
     levels_ = levels_of_channel(read_image(path).image, 0).value;
   }
 
@@ -30,7 +31,9 @@ class ReferenceInstance : public testing::Test {
 
 TEST_F(ReferenceInstance, Optimum) { expect_optimum({.step = {48, 36}}, 3638); }
 
-TEST_F(ReferenceInstance, EuclideanReach) { expect_optimum({.step = {48, 36}, .reach = Reach::euclidean}, 5058); }
+TEST_F(ReferenceInstance, EuclideanReach) {
+  expect_optimum({.step = {48, 36}, .reach = Reach::euclidean}, 5058);
+}
 
 TEST_F(ReferenceInstance, WithoutWrap) { expect_optimum({.step = {48, 36}, .wrap = false}, 4286); }
 

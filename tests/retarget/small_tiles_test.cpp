@@ -11,11 +11,11 @@ namespace {
 
 void expect_optimum(const Grid<std::int32_t>& levels, const RetargetOptions& options, std::int64_t optimum) {
   const RetargetTile tile = solve_retarget(levels, options, {.threads = 1});
-  SCOPED_TRACE(testing::Message() << levels.width() << "x" << levels.height() << " step " << options.step.x << ","
-                                  << options.step.y << " motion " << options.motion.x << "," << options.motion.y
-                                  << " radius " << options.radius << " euclidean "
-                                  << (options.reach == Reach::euclidean) << " l2 " << (options.metric == Metric::l2)
-                                  << " wrap " << options.wrap);
+  SCOPED_TRACE(testing::Message() << levels.width() << "x" << levels.height() << " step " << options.step.x
+                                  << "," << options.step.y << " motion " << options.motion.x << ","
+                                  << options.motion.y << " radius " << options.radius << " euclidean "
+                                  << (options.reach == Reach::euclidean) << " l2 "
+                                  << (options.metric == Metric::l2) << " wrap " << options.wrap);
   EXPECT_EQ(tile.energy, optimum);
   EXPECT_EQ(tile.lower_bound, optimum);
   EXPECT_EQ(tile.energy, retarget_energy(levels, tile.move, options));
@@ -49,7 +49,8 @@ void for_all_options(std::uint64_t seed, const std::vector<int>& radii, Body&& b
 
 TEST(SmallTiles, EveryPermutationOfTinyTiles) {
   std::uint64_t seed = 0;
-  for (const Extent size : {Extent{1, 1}, Extent{2, 1}, Extent{1, 5}, Extent{2, 2}, Extent{2, 3}, Extent{3, 3}, Extent{4, 2}}) {
+  for (const Extent size :
+       {Extent{1, 1}, Extent{2, 1}, Extent{1, 5}, Extent{2, 2}, Extent{2, 3}, Extent{3, 3}, Extent{4, 2}}) {
     for (const std::int32_t bound : {2, 7, 256}) {
       const auto levels = random_levels(size, ++seed, bound);
       for_all_options(seed, {1, 2, 6}, [&](const RetargetOptions& options) {
@@ -61,7 +62,8 @@ TEST(SmallTiles, EveryPermutationOfTinyTiles) {
 
 TEST(SmallTiles, HungarianMethodOnSmallTiles) {
   std::uint64_t seed = 100;
-  for (const Extent size : {Extent{5, 5}, Extent{5, 7}, Extent{8, 6}, Extent{8, 8}, Extent{1, 40}, Extent{33, 2}, Extent{17, 9}}) {
+  for (const Extent size : {Extent{5, 5}, Extent{5, 7}, Extent{8, 6}, Extent{8, 8}, Extent{1, 40},
+                            Extent{33, 2}, Extent{17, 9}}) {
     for (const std::int32_t bound : {2, 16, 256, 65536, 1 << 24}) {
       const auto levels = random_levels(size, ++seed, bound);
       for_all_options(seed, {1, 2, 3, 6, 8, 32}, [&](const RetargetOptions& options) {

@@ -60,15 +60,15 @@ struct RetargetTile {
 /// Errors: invalid_input (an option outside its range, levels outside theirs, an empty grid),
 /// over_limit (memory, or energies that could exceed 2^62), cancelled.
 /// Threads: one, the caller's. Same bytes on every machine and instruction set. Memory: at most 64 bytes for
-/// each pixel of the tile and of a border of `radius` around it. Cost, one core: 64x64 4 ms, 512x512 0.7 s,
+/// each pixel of the tile and of a border of `radius` around it. Cost, one core: 64x64 3 ms, 512x512 1 s,
 /// with its proof; docs/retarget.md has the table.
 RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                             const Execution& execution = {});
 
 /// One tile per motion in -range..range squared, row by row (index (m.y + range) * (2 range + 1) +
 /// m.x + range), solved in parallel; options.motion is ignored. range 0..8; 4 gives the 81 variants.
-/// Each equals solve_retarget()'s for its motion. Errors, as there. Threads: execution.threads; same bytes for any
-/// number. Memory: a solve_retarget() on each thread, and 8 bytes a pixel for each tile.
+/// Each equals solve_retarget()'s for its motion; errors as there. Threads: execution.threads; same bytes
+/// for any number. Memory: a solve_retarget() on each thread, and 8 bytes a pixel for each tile.
 std::vector<RetargetTile> solve_motion_set(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                                            int range, const Execution& execution = {});
 
