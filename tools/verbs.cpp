@@ -9,6 +9,7 @@ Verb help_verb();
 Verb info_verb();
 Verb retarget_verb();
 Verb spectrum_verb();
+Verb study_anneal_verb();
 Verb study_fft_verb();
 Verb validate_verb();
 Verb verify_verb();
@@ -19,7 +20,7 @@ std::vector<Verb> all_verbs() {
       bake_verb(),      noise_void_and_cluster_verb(),
       retarget_verb(),  info_verb(),
       verify_verb(),    spectrum_verb(),
-      study_fft_verb(), validate_verb(),  completion_verb(),
+      study_anneal_verb(), study_fft_verb(), validate_verb(), completion_verb(),
       help_verb(),
   };
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
+#include <fstream>
+#include <iterator>
 
 namespace bn {
 namespace {
@@ -100,8 +102,9 @@ std::vector<std::string> source_notes(const Source& source, const RetargetOption
 Metadata retarget_metadata(const RetargetEntry& entry, const RetargetOutput& output, const Source& source,
                            const JobFile& file) {
   Metadata metadata;
-  metadata.algorithm = "retarget-exact";
-  metadata.algorithm_version = kExactRetargetVersion;
+  metadata.algorithm = entry.anneal ? "retarget-anneal" : "retarget-exact";
+  metadata.algorithm_version = entry.anneal ? kAnnealVersion : kExactRetargetVersion;
+  if (entry.anneal) metadata.seed = entry.anneal->seed;
   metadata.kind = output.kind == RetargetOutput::Kind::tile ? "retarget-tile" : "retarget-atlas";
   metadata.recipe = file.recipe;
   metadata.step = entry.step ? *entry.step : auto_step(source.levels.value.size()).step;
@@ -117,6 +120,71 @@ Metadata retarget_metadata(const RetargetEntry& entry, const RetargetOutput& out
   metadata.source_hash = source.hash;
   return metadata;
 }
+
+namespace {
+
+AnnealOptions anneal_options(const AnnealMethod& method) {
+  AnnealOptions options;
+  options.schedule = method.schedule;
+  options.proposals = method.proposals;
+  options.seed = method.seed;
+  options.end_temperature = method.end_temperature;
+  using Rule = StartTemperature::Rule;
+  if (method.start_temperature > 0.0) options.start = {Rule::given, method.start_temperature};
+  if (method.initial_acceptance > 0.0) options.start = {Rule::acceptance, method.initial_acceptance};
+  return options;
+}
+
+/// One tile, going on from its checkpoint if there is one and leaving none behind.
+AnnealResult anneal_with_checkpoint(const AnnealProblem& problem, AnnealOptions options, const AnnealMethod& method,
+                                    const Execution& execution) {
+  if (method.checkpoint.empty()) return anneal_retarget(problem, options, execution, method.trace);
+  if (std::filesystem::exists(method.checkpoint)) {
+    std::ifstream file(method.checkpoint, std::ios::binary);
+    options.checkpoint.resume.assign(std::istreambuf_iterator<char>(file), {});
+    if (!file.good() && !file.eof()) {
+      throw Error({.code = ErrorCode::io,
+                   .what = "cannot be read",
+                   .where = method.checkpoint.string(),
+                   .limit = "",
+                   .remedy = "remove it to start afresh"});
+    }
+    // An empty file is no checkpoint; let the annealer say so.
+    if (options.checkpoint.resume.empty()) options.checkpoint.resume = std::string(1, '\0');
+  }
+  options.checkpoint.save = [&](std::string_view bytes) { write_text_file(method.checkpoint, bytes); };
+  AnnealResult result = anneal_retarget(problem, options, execution, method.trace);
+  std::error_code ignored;
+  std::filesystem::remove(method.checkpoint, ignored);
+  return result;
+}
+
+/// The tiles of a motion set, with lower bounds from the exact solver: a certificate within 1 % comes soon.
+std::vector<RetargetTile> anneal_tiles(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+                                       const AnnealMethod& method, int motion, const Execution& execution) {
+  AnnealProblem problem;
+  problem.channels = {{levels}};
+  problem.retarget = options;
+  problem.retarget.motion = {0, 0};
+  std::vector<AnnealResult> results;
+  if (motion == 0) {
+    results.push_back(anneal_with_checkpoint(problem, anneal_options(method), method, execution));
+  } else {
+    results = anneal_motion_set(problem, anneal_options(method), motion, execution);
+  }
+  RetargetOptions bound = options;
+  bound.gap = 0.01;
+  const Execution silent{.threads = execution.threads, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
+  const std::vector<RetargetTile> bounds = solve_motion_set(levels, bound, motion, silent);
+  std::vector<RetargetTile> tiles;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    results[i].tile.lower_bound = bounds[i].lower_bound;
+    tiles.push_back(std::move(results[i].tile));
+  }
+  return tiles;
+}
+
+}  // namespace
 
 JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
                            const std::vector<JobFile>& files, const Execution& execution,
@@ -138,7 +206,8 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
   job.notes = source_notes(source, options);
 
   const std::vector<RetargetTile> tiles =
-      solve_motion_set(source.levels.value, options, entry.motion, execution);
+      entry.anneal ? anneal_tiles(source.levels.value, options, *entry.anneal, entry.motion, execution)
+                   : solve_motion_set(source.levels.value, options, entry.motion, execution);
   for (int y = -entry.motion; y <= entry.motion; ++y) {
     for (int x = -entry.motion; x <= entry.motion; ++x) {
       const RetargetTile& tile = tiles[motion_index({x, y}, entry.motion)];

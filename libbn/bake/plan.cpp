@@ -145,6 +145,8 @@ class Planner {
     const auto pixels = static_cast<double>(size.area());
     job.estimated_seconds =
         tiles * pixels * kRetargetSecondsPerPixel * std::max(1.0, std::sqrt(pixels) / 128.0);
+    constexpr double kSecondsPerProposal = 6e-10;
+    if (entry.anneal) job.estimated_seconds += tiles * static_cast<double>(entry.anneal->proposals) * kSecondsPerProposal;
     const std::uint64_t at_once = static_cast<std::uint64_t>(std::min(thread_count(execution_), tiles));
     job.memory_bytes =
         static_cast<std::uint64_t>(size.area()) *

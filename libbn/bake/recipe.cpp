@@ -234,6 +234,7 @@ class RecipeParser {
     set.options.wrap = table.boolean("wrap", true);
     set.motion = static_cast<int>(table.integer("motion", 0, 0, 8));
     set.options.gap = parse_gap(table);
+    set.anneal = parse_anneal(table);
     parse_outputs(table, fmt::format("retarget '{}'", set.name), set.outputs,
                   [&](TableReader& reader, RetargetOutput& output) {
                     const int natural = set.motion > 0 ? 1 : 0;
@@ -248,6 +249,35 @@ class RecipeParser {
                       output.motion = *motion;
                   });
     recipe_.retargets.push_back(std::move(set));
+  }
+
+  /// What `method = "anneal"` brings along.
+  std::optional<AnnealMethod> parse_anneal(TableReader& table) {
+    const bool anneals = table.choice("method", 0, {"exact", "anneal"}) == 1;
+    if (!anneals) {
+      for (const char* key : {"schedule", "proposals", "seed", "start_temperature", "initial_acceptance", "end_temperature"}) {
+        if (table.has(key)) table.mistake(key, "needs annealing", "only with method = \"anneal\"");
+      }
+      return std::nullopt;
+    }
+    if (table.has("gap")) table.mistake("gap", "needs the exact solver", "only with method = \"exact\"");
+    AnnealMethod anneal;
+    std::vector<std::string> schedules;
+    for (const auto name : schedule_names()) schedules.emplace_back(name);
+    anneal.schedule = schedules[static_cast<std::size_t>(table.choice("schedule", 0, schedules))];
+    anneal.proposals = table.integer("proposals", anneal.proposals, 1, std::int64_t{1} << 62);
+    anneal.seed = static_cast<std::uint64_t>(table.integer("seed", 1, 0, std::numeric_limits<std::int64_t>::max()));
+    constexpr double kHottest = 1e15;
+    anneal.start_temperature = table.number("start_temperature", 0.0, 0.0, kHottest);
+    anneal.initial_acceptance = table.number("initial_acceptance", 0.0, 0.0, 0.999);
+    anneal.end_temperature = table.number("end_temperature", 0.0, 0.0, kHottest);
+    if (anneal.start_temperature > 0.0 && anneal.initial_acceptance > 0.0) {
+      table.mistake("initial_acceptance", "stands beside a start temperature", "one of the two");
+    }
+    if (anneal.start_temperature > 0.0 && anneal.end_temperature > anneal.start_temperature) {
+      table.mistake("end_temperature", "is above the start", fmt::format("at most {}", anneal.start_temperature));
+    }
+    return anneal;
   }
 
   /// A share: 0.005 or "0.5%".

@@ -63,11 +63,19 @@ std::string recipe_text(const Recipe& recipe) {
       fmt::format_to(out, "mask = {}\nlevels = \"{}\"\n", toml_string(set.mask), name_of(set.levels));
     }
     const std::string step = set.step ? fmt::format("[{}, {}]", set.step->x, set.step->y) : "\"auto\"";
-    fmt::format_to(out,
-                   "step = {}\nradius = {}\nreach = \"{}\"\nmetric = \"{}\"\nwrap = {}\nmotion = {}\n"
-                   "gap = {}\noutputs = [\n",
-                   step, set.options.radius, name_of(set.options.reach), name_of(set.options.metric),
-                   set.options.wrap, set.motion, number(set.options.gap));
+    fmt::format_to(out, "step = {}\nradius = {}\nreach = \"{}\"\nmetric = \"{}\"\nwrap = {}\nmotion = {}\n", step,
+                   set.options.radius, name_of(set.options.reach), name_of(set.options.metric), set.options.wrap,
+                   set.motion);
+    if (set.anneal) {
+      fmt::format_to(out, "method = \"anneal\"\nschedule = \"{}\"\nproposals = {}\nseed = {}\n", set.anneal->schedule,
+                     set.anneal->proposals, set.anneal->seed);
+      fmt::format_to(out, "start_temperature = {}\ninitial_acceptance = {}\nend_temperature = {}\n",
+                     number(set.anneal->start_temperature), number(set.anneal->initial_acceptance),
+                     number(set.anneal->end_temperature));
+    } else {
+      fmt::format_to(out, "gap = {}\n", number(set.options.gap));
+    }
+    text += "outputs = [\n";
     for (const RetargetOutput& output : set.outputs) {
       const bool is_tile = output.kind == RetargetOutput::Kind::tile;
       fmt::format_to(out, "  {{ path = {}, kind = \"{}\", form = \"{}\"", toml_string(output.path),

@@ -159,8 +159,8 @@ struct ChainOptions {
   enum class Coupling {
     independent,  ///< each cools by the schedule; the best result is kept
     tempering,    ///< parallel tempering: constant temperatures in geometric steps from start to end, the
-                ///< schedule unused; neighbours offer to exchange places. C. J. Geyer, "Markov chain Monte
-                ///< Carlo maximum likelihood", Computing Science and Statistics 23 (1991)
+                  ///< schedule unused; neighbours offer to exchange places. C. J. Geyer, "Markov chain Monte
+                  ///< Carlo maximum likelihood", Computing Science and Statistics 23 (1991)
   };
   int count = 1;  ///< 1..256, tempering 2..256
   Coupling coupling = Coupling::independent;
@@ -269,5 +269,54 @@ TemperatureRange automatic_temperatures(const AnnealProblem& problem);
 /// decides, so record the number where bytes must come back.
 std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const AnnealOptions& options,
                            const Execution& execution = {});
+
+// --- studies ---------------------------------------------------------------------------------------
+
+/// What study_anneal() crosses with each other.
+struct AnnealStudyOptions {
+  RetargetOptions retarget = {};  ///< its radius is not used
+  std::vector<std::string> schedules;
+  std::vector<std::int64_t> budgets;  ///< proposals
+  std::vector<int> radii;
+  int seeds = 1;  ///< 1..seeds
+  StartTemperature start = {};
+  double end_temperature = 0.0;
+};
+
+struct AnnealStudyRun {
+  std::string schedule;
+  int radius = 0;
+  std::int64_t proposals = 0;
+  std::uint64_t seed = 0;
+  double cpu_seconds = 0.0;  ///< one thread
+  std::int64_t energy = 0;
+};
+struct AnnealStudyExact {
+  int radius = 0;
+  double cpu_seconds = 0.0;
+  std::int64_t start_energy = 0;
+  std::int64_t energy = 0;  ///< proven optimal
+};
+struct AnnealStudy {
+  std::vector<AnnealStudyExact> exact;  ///< one a radius
+  std::vector<AnnealStudyRun> runs;
+};
+
+/// Anneals `levels` under every combination and solves each radius exactly. Energies are reproducible, times
+/// are those of this machine. Errors: as anneal_retarget() and solve_retarget().
+AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOptions& options,
+                         const Execution& execution = {});
+
+struct AnnealThroughput {
+  int side = 0;
+  int threads = 0;
+  std::int64_t proposals = 0;
+  double seconds = 0.0;
+  double cpu_seconds = 0.0;
+};
+/// Whole annealings of 2e9 proposals on square tiles of random 8 bit levels, radius 6.
+std::vector<AnnealThroughput> study_anneal_throughput(const std::vector<int>& sides,
+                                                      const std::vector<int>& threads,
+                                                      const Execution& execution = {});
 
 }  // namespace bn

@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "bn/anneal.h"
 #include "bn/core.h"
 #include "bn/noise.h"
 #include "bn/retarget.h"
@@ -69,6 +70,20 @@ struct RetargetOutput {
   int line = 0;
 };
 
+/// `method = "anneal"` of a retarget entry: what bn/anneal.h anneals with; other options hold their defaults.
+struct AnnealMethod {
+  std::string schedule = "exponential";
+  std::int64_t proposals = 1'000'000'000;  ///< of each tile
+  std::uint64_t seed = 1;
+  double start_temperature = 0.0;   ///< 0: from initial_acceptance
+  double initial_acceptance = 0.0;  ///< 0: automatic. At most one of the two is given
+  double end_temperature = 0.0;     ///< 0: automatic
+  /// Where a run of one tile keeps its checkpoint, and goes on from if it is there; empty: nowhere. No part of
+  /// a recipe, as it changes no byte.
+  std::filesystem::path checkpoint = {};
+  AnnealTrace* trace = nullptr;  ///< of one tile; likewise
+};
+
 /// `[[retarget]]`: the retarget tiles of one source for every motion within a range.
 struct RetargetEntry {
   std::string name;
@@ -82,6 +97,7 @@ struct RetargetEntry {
   SampleType levels = SampleType::u8;
   std::optional<Offset> step = {};  ///< none: auto_step() of the source's size
   RetargetOptions options = {};     ///< step and motion are ignored
+  std::optional<AnnealMethod> anneal = {};  ///< none: the exact solver, with options.gap
   int motion = 0;                   ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
   std::vector<RetargetOutput> outputs = {};
   int line = 0;
