@@ -48,13 +48,14 @@ Verb info_verb() {
     Json result{{"file", settings->file.string()},
                 {"size", to_json(content.image.size)},
                 {"channels", content.image.channels},
-                {"depth", name_of(content.image.type)},
+                {"type", name_of(content.image.type)},
                 {"pixel_hash", hash}};
     if (content.metadata) {
       result["pixels_as_recorded"] = content.metadata->pixel_hash == hash;
       result["metadata"] = Json::parse(bn::to_json(*content.metadata));
     } else {
       result["metadata"] = nullptr;
+      if (!content.metadata_fault.empty()) result["metadata_fault"] = content.metadata_fault;
     }
     if (settings->json) return session.output.write_result(result, true);
     print_text(std::move(result), content, session.output);

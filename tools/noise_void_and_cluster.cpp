@@ -8,7 +8,7 @@ namespace bn::tools {
 Verb noise_void_and_cluster_verb() {
   struct Settings {
     VoidAndClusterOptions options;
-    std::optional<SampleType> depth;
+    std::optional<SampleType> type;
     std::filesystem::path out;
     bool json = false;
   };
@@ -19,7 +19,7 @@ Verb noise_void_and_cluster_verb() {
   verb.summary = "Make one blue-noise mask by void-and-cluster.";
   verb.examples = {
       {"bn noise void-and-cluster --size 256x256 --sigma 1.9 --seed 1 -o mask.png", "a mask, ready to ship"},
-      {"bn noise void-and-cluster --size 128x128 --depth 16bit -o mask16.png",
+      {"bn noise void-and-cluster --size 128x128 --type 16bit -o mask16.png",
        "65536 levels for high-quality dither"},
       {"bn noise void-and-cluster --size 64x64 -o mask.h --json", "a C array, and the figures as JSON"}};
   verb.details =
@@ -38,7 +38,7 @@ Verb noise_void_and_cluster_verb() {
                         "Radius in pixels at which the Gaussian is cut; 0: where it rounds to zero.");
   verb.arguments.option("--seed", options.seed, seed_value(), "Another seed gives another mask.");
   verb.arguments.option(
-      "--depth", settings->depth,
+      "--type", settings->type,
       choice_of<std::optional<SampleType>>(
           {{"8bit", SampleType::u8}, {"16bit", SampleType::u16}, {"float", SampleType::f32}}),
       "Sample type of the file; where it is not given, float for .exr and 8bit for all others.");
@@ -46,18 +46,18 @@ Verb noise_void_and_cluster_verb() {
                                  "The file to write; .png, .exr, .tif, .h or .bin decides the format.", "-o");
   verb.arguments.flag("--json", settings->json, true, "Print the result as JSON.");
   verb.run = [settings](Session& session) {
-    const SampleType depth =
-        settings->depth.value_or(settings->out.extension() == ".exr" ? SampleType::f32 : SampleType::u8);
+    const SampleType type =
+        settings->type.value_or(settings->out.extension() == ".exr" ? SampleType::f32 : SampleType::u8);
     MaskEntry entry;
     entry.name = "mask";
     entry.options = settings->options;
-    entry.outputs = {{.path = settings->out.string(), .type = depth}};
+    entry.outputs = {{.path = settings->out.string(), .type = type}};
     const JobRecord job = make_mask(entry, session.execution_showing("void-and-cluster"));
     session.progress.finish();
     for (const auto& note : job.notes) session.progress.note(note);
     session.output.write_result({{"file", settings->out.string()},
                                  {"size", to_json(settings->options.size)},
-                                 {"depth", name_of(depth)},
+                                 {"type", name_of(type)},
                                  {"sigma", settings->options.sigma_px},
                                  {"initial_density", settings->options.initial_density},
                                  {"cutoff", settings->options.cutoff_px},

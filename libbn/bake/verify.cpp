@@ -32,7 +32,9 @@ class FileVerifier {
     });
     if (!readable) return;
     if (!content.metadata) {
-      add("metadata", false, "none of this toolkit's; only files that it wrote can be verified");
+      add("metadata", false,
+          content.metadata_fault.empty() ? "none of this toolkit's; only files that it wrote can be verified"
+                                         : "broken: " + content.metadata_fault);
       return;
     }
     image_ = std::move(content.image);

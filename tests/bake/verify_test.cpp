@@ -1,5 +1,8 @@
 // Protects: verification believes nothing that a file says of itself. Each claim is broken in turn,
 // and the item of that claim must fail with a detail that tells what differs.
+#include <fstream>
+#include <iterator>
+
 #include "bake/job.h"
 #include "fixtures.h"
 
@@ -47,6 +50,19 @@ class Verify : public testing::Test {
   std::string detail_;
 };
 TemporaryFolder* Verify::baked_ = nullptr;
+
+TEST_F(Verify, SaysWhatIsWrongWithBrokenMetadata) {
+  // A C header keeps its metadata as text, so damage to it is easily made.
+  const FileContent content = read_image(folder_ / "masks/small.png");
+  write_image(folder_ / "mask.h", content.image, *content.metadata);
+  std::ifstream in(folder_ / "mask.h");
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  const std::size_t at = text.find("\"kind\":");
+  ASSERT_NE(at, std::string::npos);
+  write_text_file(folder_ / "mask.h", text.replace(at, 7, "\"kint\":"));
+  EXPECT_EQ(failed("mask.h"), "metadata ");
+  EXPECT_TRUE(detail_.starts_with("broken: ")) << detail_;
+}
 
 TEST_F(Verify, PassesEveryCheckOfABake) {
   EXPECT_EQ(failures(verify_path(folder_)), "");

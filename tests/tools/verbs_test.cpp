@@ -37,14 +37,14 @@ class Verbs : public testing::Test {
 };
 
 TEST_F(Verbs, NoiseWritesAMaskAndSaysWhatItIs) {
-  const Json result = json({"noise", "void-and-cluster", "--size", "32x16", "--seed", "7", "--depth", "16bit",
+  const Json result = json({"noise", "void-and-cluster", "--size", "32x16", "--seed", "7", "--type", "16bit",
                             "-o", "m.png", "--json"});
   EXPECT_EQ(result.at("size"), Json({32, 16}));
   EXPECT_EQ(result.at("seed"), 7);
   EXPECT_EQ(result.at("sigma"), 1.9);
   const Json info = json({"info", "m.png", "--json"});
   EXPECT_EQ(info.at("size"), Json({32, 16}));
-  EXPECT_EQ(info.at("depth"), "16bit");
+  EXPECT_EQ(info.at("type"), "16bit");
   EXPECT_EQ(info.at("pixel_hash"), result.at("pixel_hash"));
   EXPECT_EQ(info.at("pixels_as_recorded"), true);
   EXPECT_EQ(info.at("metadata").at("algorithm"), "void-and-cluster");
