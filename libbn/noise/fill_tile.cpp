@@ -170,6 +170,7 @@ class TileFiller {
         around_(static_cast<std::size_t>(stride_ * (rows_ + 2 * field.reach_y) + kLanes)),
         least_(around_.size()),
         least_of_others_(around_.size()),
+        pixels_(static_cast<std::size_t>(columns_ * rows_)),
         leading_(static_cast<std::size_t>(columns_ * rows_ + kLanes)),
         tied_(leading_.size()) {}
 
@@ -178,7 +179,9 @@ class TileFiller {
     for (int round = 0; round < rounds; ++round) {
       const std::size_t leading = find_leading_blocks();
       if (leading == 0) break;
-      for (std::size_t i = 0; i < leading; ++i) set_least_pixel(leading_[i]);
+      // Recording comes first: those writes go all over the tile and wait for memory together.
+      for (std::size_t i = 0; i < leading; ++i) pixels_[i] = mark_least_pixel(leading_[i]);
+      for (std::size_t i = 0; i < leading; ++i) add_images(field_, kernel_, pixels_[i].x, pixels_[i].y);
       count += static_cast<std::int64_t>(leading);
     }
     return count;
@@ -292,12 +295,12 @@ class TileFiller {
     return {block_x * kBlockSide + at % kBlockSide, block_y * kBlockSide + at / kBlockSide, at};
   }
 
-  void set_least_pixel(int block) {
+  Pixel mark_least_pixel(int block) {
     const Pixel pixel = least_pixel(block);
     std::int32_t& energy = field_.blocks[static_cast<std::size_t>(block)].energy[pixel.in_block];
     energy_when_set_[std::int64_t{pixel.y} * field_.size.width + pixel.x] = static_cast<std::uint32_t>(energy);
     energy += kSetMark;
-    add_images(field_, kernel_, pixel.x, pixel.y);
+    return pixel;
   }
 
   EnergyField& field_;
@@ -310,6 +313,7 @@ class TileFiller {
   std::vector<std::int32_t> around_;           // the minima of the tile and of what is in its reach
   std::vector<std::int32_t> least_;            // of a window's row
   std::vector<std::int32_t> least_of_others_;  // of a window's row without its middle
+  std::vector<Pixel> pixels_;                  // that a round sets
   std::vector<std::int32_t> leading_;
   std::vector<std::int32_t> tied_;
 };
