@@ -25,13 +25,14 @@ struct VoidAndClusterOptions {
 /// 0..width*height-1, toroidal.
 ///
 /// Source: R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE 1913
-/// (1993). Energies are integers, so neither order nor instruction set nor threads can change a bit.
-/// Ties go to the lowest index y * width + x.
-///
+/// (1993); what differs, and the method: docs/void_and_cluster.md. Energies are integers, so neither
+/// order nor instruction set nor threads can change a bit. Ties go to the lowest index y * width + x.
 /// Sizes below the kernel's are correct: the kernel wraps onto itself.
+///
 /// Errors: invalid_input (an option outside its range), over_limit (memory), cancelled.
-/// Threads: execution.threads. Cost: see docs/methods.md for measured figures; memory about 12 bytes
-/// a pixel.
+/// Threads: execution.threads, useful from 1024² on; a stop is heeded within a tile's visit, some milliseconds.
+/// Cost at sigma 1.9, one core: 150 ns a pixel up to 512², 300 ns at 4096² and above (10 ms for 256², 0.25 s
+/// for 1024², 5 s for 4096²); it grows with the square of sigma. Memory: 12 bytes a pixel.
 Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const Execution& execution = {});
 
 // --- baselines: what masks are compared with -------------------------------------------------------
