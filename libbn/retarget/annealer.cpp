@@ -64,8 +64,8 @@ void check(const AnnealOptions& options) {
     refuse("end temperature", fmt::format("{}", options.end_temperature),
            "above 0, at most the start; 0 for automatic");
   }
-  if (!(options.checkpoint.interval_s >= 0.01 && options.checkpoint.interval_s <= 3600.0)) {
-    refuse("checkpoint interval", fmt::format("{} s", options.checkpoint.interval_s), "0.01..3600 s");
+  if (!(options.checkpoint.interval_s >= 0.0 && options.checkpoint.interval_s <= 3600.0)) {
+    refuse("checkpoint interval", fmt::format("{} s", options.checkpoint.interval_s), "0..3600 s");
   }
   if (options.custom) {
     check_schedule(*options.custom);
@@ -228,7 +228,8 @@ class Run {
         save();
         throw_if_stopped(execution_);
       }
-      const double interval = std::max(options_.checkpoint.interval_s, std::min(28.0, 50.0 * save_cost_s));
+      const double asked = options_.checkpoint.interval_s;
+      const double interval = asked == 0.0 ? 0.0 : std::max(asked, std::min(28.0, 50.0 * save_cost_s));
       if (options_.checkpoint.save && seconds_since(saved) >= interval) {
         const auto before = Clock::now();
         save();

@@ -206,7 +206,8 @@ struct Checkpointing {
   /// Called with an opaque checkpoint at most every `interval_s`, and once when a stop was requested;
   /// from the calling thread. Write it crash-safely (bn/texture.h, write_text_file).
   std::function<void(std::string_view checkpoint)> save = {};
-  /// Seconds between two, 0.01..3600; stretched up to 28 s where saving takes longer than a fiftieth of it.
+  /// Seconds between two, 0..3600; stretched up to 28 s where saving takes longer than a fiftieth of it. 0 saves
+  /// before every beat of the run, whatever it costs.
   double interval_s = 10.0;
   /// A checkpoint to go on from; empty to start afresh.
   std::string resume = {};
