@@ -96,6 +96,15 @@ void write_image(const std::filesystem::path& path, const Image& image, Metadata
   }
 }
 
+std::vector<unsigned char> encode_png(const Image& image) {
+  const std::string where = "PNG in memory";
+  texture::format_for("memory.png", image.type, image.channels);
+  texture::check_image(image, where);
+  return texture::encode_oiio("png", image, "");
+}
+
+void check_text_writable(const std::filesystem::path& path) { texture::check_replaceable(path); }
+
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
   texture::write_file(path, std::as_bytes(std::span(text)));
 }

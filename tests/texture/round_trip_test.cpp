@@ -103,5 +103,27 @@ TEST(PixelHash, Golden) {
             "xxh3-128:7254161f9f10251ae9161b0b0b0fc779");
 }
 
+TEST(EncodePng, IsAPngOfTheSameSamplesAndAlwaysOfTheSameBytes) {
+  const TemporaryFolder folder;
+  for (const SampleType type : {SampleType::u8, SampleType::u16}) {
+    for (const int channels : {1, 3, 4}) {
+      const Image image = random_image({7, 5}, channels, type);
+      const auto bytes = encode_png(image);
+      EXPECT_EQ(bytes, encode_png(image));
+      put_bytes(folder / "a.png", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+      const FileContent content = read_image(folder / "a.png");
+      EXPECT_EQ(content.image.samples, image.samples);
+      EXPECT_FALSE(content.metadata);
+      EXPECT_EQ(content.metadata_fault, "");
+    }
+  }
+}
+
+TEST(EncodePng, RefusesWhatPngCannotHold) {
+  EXPECT_THROW(encode_png(random_image({2, 2}, 2, SampleType::u8)), Error);
+  EXPECT_THROW(encode_png(random_image({2, 2}, 1, SampleType::f32)), Error);
+  EXPECT_THROW(encode_png(Image{}), Error);
+}
+
 }  // namespace
 }  // namespace bn::texture

@@ -112,8 +112,15 @@ void write_image(const std::filesystem::path& path, const Image& image, Metadata
 /// extension, unfit sample type, missing folder, no permission. Call it before the work starts.
 void check_writable(const std::filesystem::path& path, SampleType type, int channels);
 
+/// A PNG in memory, without metadata, for embedding. 8bit or 16bit; 1, 3 or 4 channels. The same bytes for equal
+/// images and one version of the libraries. Errors: invalid_input (a type or shape that PNG cannot hold).
+std::vector<unsigned char> encode_png(const Image& image);
+
 /// The same crash-safe path for text: manifests, CSV, HTML. Errors: io.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// Throws what write_text_file() would throw for this path, without writing.
+void check_text_writable(const std::filesystem::path& path);
 
 // --- encodings (docs/conventions.md) -------------------------------------------------------------
 
