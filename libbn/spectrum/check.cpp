@@ -53,13 +53,13 @@ class Judge {
 
   /// NaN, a figure that this texture does not have, passes.
   void expect(std::string figure, double value, double low, double high) {
-    if (std::isnan(value) || (value >= low && value <= high)) return;
-    failures_.push_back({std::move(figure), value, low, high});
+    if (std::isnan(value)) return;
+    judged_.push_back({std::move(figure), value, low, high, value >= low && value <= high});
   }
 
   void expect_content() {
     if (figures_.peak > 0.0) return;
-    failures_.push_back({"peak", figures_.peak, 0.0, kAny});  // a constant texture is no noise at all
+    judged_.push_back({"peak", figures_.peak, 0.0, kAny, false});  // a constant texture is no noise at all
   }
 
   void expect_bands(const BandLimits& limits) {
@@ -93,22 +93,22 @@ class Judge {
 
   void expect_volume() {
     if (figures_.shape.depth > 1) return;
-    failures_.push_back({"depth", static_cast<double>(figures_.shape.depth), 2.0, kMaxSpectrumSide});
+    expect("depth", static_cast<double>(figures_.shape.depth), 2.0, kMaxSpectrumSide);
   }
 
-  std::vector<CheckFailure> failures() && { return std::move(failures_); }
+  std::vector<JudgedFigure> judged() && { return std::move(judged_); }
 
  private:
   /// Periodograms in the average; the slices of a volume are averaged too.
   std::int64_t averaged() const { return figures_.textures * figures_.shape.depth; }
 
   const FiguresOfMerit& figures_;
-  std::vector<CheckFailure> failures_;
+  std::vector<JudgedFigure> judged_;
 };
 
 }  // namespace
 
-std::vector<CheckFailure> check(const FiguresOfMerit& figures, Check kind) {
+std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind) {
   Judge judge(figures);
   judge.expect_content();
   judge.expect_isotropy();
@@ -127,7 +127,15 @@ std::vector<CheckFailure> check(const FiguresOfMerit& figures, Check kind) {
       judge.expect_flat_histogram();
       break;
   }
-  return std::move(judge).failures();
+  return std::move(judge).judged();
+}
+
+std::vector<CheckFailure> check(const FiguresOfMerit& figures, Check kind) {
+  std::vector<CheckFailure> failures;
+  for (auto& [figure, value, low, high, passed] : judge(figures, kind)) {
+    if (!passed) failures.push_back({figure, value, low, high});
+  }
+  return failures;
 }
 
 }  // namespace bn

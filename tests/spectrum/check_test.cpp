@@ -132,5 +132,20 @@ TEST(CheckStbn, FailsAPicture) {
   EXPECT_TRUE(contains(failures(baked_mask(32, 1.9), {32, 32}, 1024.0, Check::stbn), "depth"));
 }
 
+TEST(Judge, ListsEveryFigureAndAgreesWithCheck) {
+  const Shape shape{64, 64};
+  const auto figures = analyse(test::white_values(shape.count(), 1), shape, 0.0, 1.0).figures;
+  std::vector<std::string> missed;
+  std::size_t kept = 0;
+  for (const auto& [figure, value, low, high, passed] : judge(figures, Check::blue)) {
+    EXPECT_EQ(passed, value >= low && value <= high) << figure;
+    passed ? void(++kept) : missed.push_back(figure);
+  }
+  std::vector<std::string> failed;
+  for (const auto& failure : check(figures, Check::blue)) failed.push_back(failure.figure);
+  EXPECT_EQ(missed, failed);
+  EXPECT_GE(kept, 2u);  // white noise is isotropic
+}
+
 }  // namespace
 }  // namespace bn

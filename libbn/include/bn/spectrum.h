@@ -211,6 +211,17 @@ struct CheckFailure {
 /// Figures that this texture is too small to have are not judged.
 std::vector<CheckFailure> check(const FiguresOfMerit& figures, Check kind);
 
+/// One figure with its threshold, kept or missed. An end that does not matter is infinite.
+struct JudgedFigure {
+  std::string figure;
+  double value;
+  double low, high;
+  bool passed;
+};
+
+/// Every figure that check() judges, in its order.
+std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind);
+
 // --- studies -------------------------------------------------------------------------------------
 
 /// One way to transform a side x side picture of white noise, on one thread.
