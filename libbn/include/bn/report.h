@@ -1,0 +1,50 @@
+// bn/report.h - floor 2: one page that shows textures, and how good they are.
+//
+// The page is one HTML file without network, script or clock: pictures are embedded PNG, plots are inline SVG
+// drawn by gnuplot. Equal files give equal bytes with one version of gnuplot and of the libraries.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bn/core.h"
+
+namespace bn {
+
+struct ReportOptions {
+  /// Files, and folders that are searched for textures (in name order, links to folders not followed). A
+  /// folder's manifest.json, where there is one, tells which files are encodings of one texture and how long
+  /// each job took.
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path out;      ///< the page
+  std::filesystem::path csv_dir;  ///< empty, or the folder for one CSV file a plot; made if its parent exists
+  bool compare = false;           ///< begin with all textures side by side and their curves in common plots
+  /// The inputs are volumes: each folder is one, its files its slices in name order (numbers by their value);
+  /// all files given by name are the slices of one more, in the order given.
+  bool volume = false;
+};
+
+/// What came of it, for the command line.
+struct ReportSummary {
+  int masks = 0;
+  int retarget_sets = 0;
+  int volumes = 0;
+  int failed = 0;  ///< textures that miss a threshold
+  std::vector<std::string>
+      notes;  ///< files that could not be read, plots that could not be drawn; also in the page
+};
+
+/// Most textures in one page, and most files read for it; a page of more would open in no browser.
+inline constexpr int kMaxReportTextures = 200;
+inline constexpr int kMaxReportFiles = 20000;
+
+/// Writes the page, crash-safely. Plots need gnuplot in PATH: without it, and where it fails or takes over 60
+/// s, the page has tables and pictures and says so. Errors: io (`out` or `csv_dir` cannot be written, which
+/// is checked first; no input can be read), invalid_input (no inputs, or nothing in them that is a texture),
+/// over_limit, cancelled. A file that cannot be read while another can is a note, no error. Threads:
+/// execution.threads; any number gives the same bytes.
+ReportSummary write_report(const ReportOptions& options, const Execution& execution = {});
+
+}  // namespace bn

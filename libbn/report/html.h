@@ -1,0 +1,45 @@
+// Pieces of the page.
+
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "bn/texture.h"
+
+namespace bn::report {
+
+/// `text` for any place in the page: the five characters that mean something in HTML are replaced, and what
+/// is no UTF-8 or no printable character becomes U+FFFD.
+std::string escaped(std::string_view text);
+
+std::string base64(std::span<const unsigned char> bytes);
+
+/// Three significant digits, as people write them: 0.0518, 2.4 × 10⁻⁵, 3,638 for whole numbers below 10^15.
+std::string number(double value);
+std::string whole(std::int64_t value);
+
+/// A picture whose pixels stay square. A click shows it larger.
+struct Picture {
+  Image image;
+  int scale = 1;        ///< page pixels a pixel
+  std::string title;    ///< HTML
+  std::string caption;  ///< HTML; empty for small ones
+};
+std::string figure(const Picture& picture);
+
+/// The same small, with a line of text under it.
+std::string thumbnail(const Image& image, int scale, std::string_view alt, std::string_view label);
+
+/// The whole scale that shows `pixels` about `wanted` page pixels wide, at least 1.
+int scale_for(int pixels, int wanted);
+
+/// A row of a table of two columns; `value` is HTML.
+std::string fact(std::string_view name, std::string_view value);
+
+/// "pass" or "fail" as a badge.
+std::string badge(bool passed);
+std::string badge(bool passed, std::string_view words);
+
+}  // namespace bn::report

@@ -1,0 +1,24 @@
+// The page around the sections.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/section.h"
+
+namespace bn::report {
+
+struct Page {
+  std::vector<std::string> names;  ///< of the sections
+  std::vector<std::string> kinds;  ///< "mask", "retarget set", "volume"
+  std::vector<Section> sections;
+  std::vector<std::string> notes;
+  Plot common_power, common_anisotropy;  ///< for --compare; without curves otherwise
+  bool compare = false;
+};
+
+/// `svg`: one a plot, the sections' in their order and then the common ones; empty: no plots.
+std::string page_html(const Page& page, const std::vector<std::string>& svg);
+
+}  // namespace bn::report

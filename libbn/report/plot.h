@@ -1,0 +1,44 @@
+// Plots: their data, their CSV, and gnuplot's drawing of them.
+
+#pragma once
+
+#include <stop_token>
+#include <string>
+#include <vector>
+
+namespace bn::report {
+
+enum class PlotStyle { power, anisotropy, autocorrelation, histogram, moves };
+
+/// What a curve stands for decides its colour and line; see scripts/plots/common.gnuplot.
+enum class Role { white, reference, texture };
+
+struct Curve {
+  std::string name;
+  Role role = Role::texture;
+  int colour = 0;            ///< of a texture, 0..kCurveColours-1
+  std::vector<double> x, y;  ///< NaN in y leaves a gap
+};
+
+inline constexpr int kCurveColours = 6;
+
+struct Plot {
+  PlotStyle style;
+  std::string file_name;  ///< of its CSV, without extension
+  std::string x_name, y_name;
+  std::vector<Curve> curves;
+};
+
+/// Lines "curve,x,y" with a header of the plot's own names; numbers as short as they can be read back
+/// exactly.
+std::string to_csv(const Plot& plot);
+
+struct Drawing {
+  std::vector<std::string> svg;  ///< one a plot, to stand in the page; empty if gnuplot did not draw
+  std::string failure;           ///< then why
+};
+
+/// Draws all plots in one run of gnuplot. It is handed numbers only: no text of any file reaches it.
+Drawing draw(const std::vector<Plot>& plots, std::stop_token stop);
+
+}  // namespace bn::report

@@ -1,0 +1,161 @@
+// The report: collect, look at each texture, draw all plots at once, put the page together, write.
+//
+// Whatever can fail for reasons outside (an output that cannot be written) is checked before the work.
+
+#include "bn/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "bn/texture.h"
+#include "report/page.h"
+#include "report/plot.h"
+#include "report/section.h"
+#include "report/sources.h"
+
+namespace bn {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_options(const ReportOptions& options) {
+  if (options.inputs.empty()) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "no files or folders",
+                 .where = "inputs",
+                 .limit = "at least one",
+                 .remedy = ""});
+  }
+  check_text_writable(options.out);
+  if (options.csv_dir.empty()) return;
+  std::error_code error;
+  fs::create_directory(options.csv_dir, error);
+  if (error || !fs::is_directory(options.csv_dir)) {
+    throw Error({.code = ErrorCode::io,
+                 .what = error ? fmt::format("cannot be made: {}", error.message()) : "is no folder",
+                 .where = options.csv_dir.string(),
+                 .limit = "",
+                 .remedy = "choose another folder"});
+  }
+  check_text_writable(options.csv_dir / "curves.csv");
+}
+
+/// A name for files: letters and digits of `name`, the rest as single hyphens; never one that is in `taken`.
+std::string file_name_for(const std::string& name, std::set<std::string>& taken) {
+  std::string base;
+  for (const char c : name.substr(name.size() > 80 ? name.size() - 80 : 0)) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+    if (plain) {
+      base += c;
+    } else if (!base.empty() && base.back() != '-') {
+      base += '-';
+    }
+  }
+  while (!base.empty() && base.back() == '-') base.pop_back();
+  if (base.empty()) base = "texture";
+  std::string result = base;
+  for (int i = 2; !taken.insert(result).second; ++i) result = fmt::format("{}-{}", base, i);
+  return result;
+}
+
+/// All textures' curves over each other, as many as there are colours.
+void add_common_plots(report::Page& page, const report::Reference& reference) {
+  page.common_power = report::power_plot("compare-power", reference);
+  page.common_anisotropy = report::anisotropy_plot("compare-anisotropy", reference);
+  int colour = 0;
+  for (const report::Section& section : page.sections) {
+    if (section.card.empty()) continue;
+    if (colour == report::kCurveColours) {
+      page.notes.push_back(
+          fmt::format("The common plots show the first {} textures.", report::kCurveColours));
+      break;
+    }
+    for (const auto& [from, to] : {std::pair(&section.plots[0], &page.common_power),
+                                   std::pair(&section.plots[1], &page.common_anisotropy)}) {
+      to->curves.push_back(from->curves.back());
+      to->curves.back().colour = colour;
+    }
+    ++colour;
+  }
+}
+
+}  // namespace
+
+ReportSummary write_report(const ReportOptions& options, const Execution& execution) {
+  check_options(options);
+  Execution quiet = execution;
+  quiet.progress = {};
+  report::Collection found = report::collect(options, quiet);
+  const std::size_t textures = found.textures.size(), sets = found.retarget_sets.size();
+  if (textures + sets == 0) {
+    throw Error({.code = found.readable == 0 ? ErrorCode::io : ErrorCode::invalid_input,
+                 .what = found.notes.empty() ? "nothing to report on" : found.notes.front(),
+                 .where = options.inputs.front().string(),
+                 .limit = "",
+                 .remedy = "name textures, or folders that hold some"});
+  }
+
+  report::Page page;
+  page.compare = options.compare;
+  page.notes = found.notes;
+  page.sections.resize(textures + sets);
+  ReportSummary summary;
+  std::set<std::string> taken;
+  std::vector<std::string> file_names;
+  for (const auto& texture : found.textures) {
+    const bool volume = texture.shape.depth > 1;
+    page.names.push_back(texture.name);
+    page.kinds.push_back(volume ? "volume" : "texture");
+    ++(volume ? summary.volumes : summary.masks);
+    file_names.push_back(file_name_for(texture.name, taken));
+  }
+  for (const auto& set : found.retarget_sets) {
+    page.names.push_back(set.name);
+    page.kinds.push_back("retarget set");
+    file_names.push_back(file_name_for(set.name, taken));
+  }
+  summary.retarget_sets = static_cast<int>(sets);
+
+  // Sections side by side; each on one thread.
+  const report::Reference reference = report::make_reference(quiet);
+  Execution single = quiet;
+  single.threads = 1;
+  parallel_for(execution, static_cast<std::int64_t>(page.sections.size()), [&](std::int64_t index) {
+    const auto i = static_cast<std::size_t>(index);
+    page.sections[i] =
+        i < textures
+            ? report::texture_section(found.textures[i], reference, file_names[i], single)
+            : report::retarget_section(found.retarget_sets[i - textures], reference, file_names[i], single);
+  });
+  if (options.compare) add_common_plots(page, reference);
+
+  std::vector<report::Plot> plots;
+  for (const report::Section& section : page.sections) {
+    plots.insert(plots.end(), section.plots.begin(), section.plots.end());
+    summary.failed += section.failed;
+  }
+  if (options.compare) {
+    plots.push_back(page.common_power);
+    plots.push_back(page.common_anisotropy);
+  }
+  const report::Drawing drawing = report::draw(plots, execution.stop);
+  throw_if_stopped(execution);
+  if (!drawing.failure.empty()) page.notes.push_back(drawing.failure);
+  write_text_file(options.out, report::page_html(page, drawing.svg));
+
+  if (!options.csv_dir.empty()) {
+    for (const report::Plot& plot : plots) {
+      write_text_file(options.csv_dir / (plot.file_name + ".csv"), report::to_csv(plot));
+    }
+    for (const report::Section& section : page.sections) {
+      for (const auto& [name, csv] : section.tables) write_text_file(options.csv_dir / (name + ".csv"), csv);
+    }
+  }
+  summary.notes = page.notes;
+  return summary;
+}
+
+}  // namespace bn

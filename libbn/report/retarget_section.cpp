@@ -1,0 +1,325 @@
+// One retarget set: the moves, what they cost, and what is left of the dither after many of them.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "bn/retarget.h"
+#include "report/html.h"
+#include "report/pictures.h"
+#include "report/section.h"
+
+namespace bn::report {
+namespace {
+
+constexpr std::array<int, 3> kRepeats{1, 8, 64};
+constexpr int kMostShown = 512;
+
+RetargetOptions options_of(const Metadata& metadata, Offset motion) {
+  RetargetOptions options;
+  options.step = *metadata.step;
+  options.motion = motion;
+  options.radius = *metadata.radius;
+  options.reach = metadata.reach == "euclidean" ? Reach::euclidean : Reach::chebyshev;
+  options.metric = metadata.metric == "l2" ? Metric::l2 : Metric::l1;
+  options.wrap = metadata.wrap.value_or(true);
+  return options;
+}
+
+/// The tile shown: of no motion if there is one.
+const RetargetSet::Tile& main_tile(const RetargetSet& set) {
+  for (const auto& tile : set.tiles) {
+    if (tile.record.motion == Offset{0, 0}) return tile;
+  }
+  return set.tiles.front();
+}
+
+/// What recomputing every tile says.
+struct Audit {
+  int permutations = 0;  ///< bijections within reach
+  int energies = 0;      ///< that are as recorded
+  int optimal = 0;       ///< energy == bound
+  bool recomputed = false;
+  std::string fault;
+};
+
+Audit audit(const RetargetSet& set) {
+  Audit result;
+  result.recomputed = set.levels.has_value();
+  for (const auto& [record, move] : set.tiles) {
+    const RetargetOptions options = options_of(set.metadata, record.motion);
+    result.optimal += record.energy == record.lower_bound;
+    try {
+      check_permutation(move, options);
+      ++result.permutations;
+      if (set.levels) result.energies += retarget_energy(*set.levels, move, options) == record.energy;
+    } catch (const Error& error) {
+      if (result.fault.empty()) result.fault = error.what();
+    }
+  }
+  return result;
+}
+
+/// D(u) - D(u + R(u) + d): by how much a seed's new place differs from its old one.
+Grid<double> residual_of(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step) {
+  Grid<double> residual(levels.size());
+  for (int y = 0; y < levels.height(); ++y) {
+    for (int x = 0; x < levels.width(); ++x) {
+      const Offset r = move(x, y);
+      residual(x, y) =
+          levels(x, y) - levels.torus(std::int64_t{x} + r.x + step.x, std::int64_t{y} + r.y + step.y);
+    }
+  }
+  return residual;
+}
+
+/// The dither on the screen after each of kRepeats frames: in frame 0 every seed sits on its level D(p);
+/// frame t moves the seed at p by R(p + t d).
+std::vector<std::vector<double>> repeated(const Grid<std::int32_t>& levels, const Grid<Offset>& move,
+                                          Offset step) {
+  Grid<std::int32_t> screen = levels, next(levels.size());
+  std::vector<std::vector<double>> result;
+  for (int t = 0; t < kRepeats.back(); ++t) {
+    for (int y = 0; y < screen.height(); ++y) {
+      for (int x = 0; x < screen.width(); ++x) {
+        const Offset r = move.torus(x + std::int64_t{t} * step.x, y + std::int64_t{t} * step.y);
+        next(wrap(x + r.x, screen.width()), wrap(y + r.y, screen.height())) = screen(x, y);
+      }
+    }
+    std::swap(screen, next);
+    if (std::find(kRepeats.begin(), kRepeats.end(), t + 1) != kRepeats.end()) {
+      result.emplace_back(screen.begin(), screen.end());
+    }
+  }
+  return result;
+}
+
+/// How far pixels go, beyond the motion, as the reach measures it.
+Plot moves_plot(const RetargetSet& set, const RetargetSet::Tile& tile, std::string file_name) {
+  const int radius = *set.metadata.radius;
+  std::vector<std::int64_t> counts(static_cast<std::size_t>(radius) + 1);
+  for (const Offset r : tile.move) {
+    const int x = std::abs(r.x - tile.record.motion.x), y = std::abs(r.y - tile.record.motion.y);
+    const int length =
+        set.metadata.reach == "euclidean" ? static_cast<int>(std::lround(std::hypot(x, y))) : std::max(x, y);
+    ++counts[static_cast<std::size_t>(std::min(length, radius))];
+  }
+  Curve curve{"pixels", Role::texture, 0, {}, {}};
+  for (int length = 0; length <= radius; ++length) {
+    curve.x.push_back(length);
+    curve.y.push_back(100.0 * static_cast<double>(counts[static_cast<std::size_t>(length)]) /
+                      static_cast<double>(tile.move.count()));
+  }
+  return {PlotStyle::moves, std::move(file_name), "length_pixels", "share_percent", {std::move(curve)}};
+}
+
+/// Energy and bound of every motion as a table, coloured by energy.
+std::string heat_map(const RetargetSet& set) {
+  if (set.tiles.size() < 2) return {};
+  const auto by_energy = [](const auto& a, const auto& b) { return a.record.energy < b.record.energy; };
+  const auto [least, most] = std::minmax_element(set.tiles.begin(), set.tiles.end(), by_energy);
+  const std::int64_t low = least->record.energy, high = most->record.energy;
+  bool all_optimal = true;
+  int range = 0;
+  for (const auto& tile : set.tiles) {
+    all_optimal &= tile.record.energy == tile.record.lower_bound;
+    range = std::max({range, std::abs(tile.record.motion.x), std::abs(tile.record.motion.y)});
+  }
+  std::string rows = "<tr><td></td>";
+  for (int x = -range; x <= range; ++x) rows += fmt::format("<th scope=\"col\">{}</th>", number(x));
+  rows += "</tr>\n";
+  for (int y = -range; y <= range; ++y) {
+    rows += fmt::format("<tr><th scope=\"row\">{}</th>", number(y));
+    for (int x = -range; x <= range; ++x) {
+      const auto tile = std::find_if(set.tiles.begin(), set.tiles.end(), [&](const auto& t) {
+        return t.record.motion == Offset{x, y};
+      });
+      if (tile == set.tiles.end()) {
+        rows += "<td></td>";
+        continue;
+      }
+      const TileRecord& record = tile->record;
+      const double share =
+          high > low ? static_cast<double>(record.energy - low) / static_cast<double>(high - low) : 0.0;
+      rows += fmt::format(
+          "<td style=\"--heat:{:.0f}%\" title=\"motion {}, {}: energy {}, bound {}\">{}{}</td>",
+          100.0 * share, x, y, record.energy, record.lower_bound, record.energy,
+          record.energy == record.lower_bound ? ""
+                                              : fmt::format("<br><small>{}</small>", record.lower_bound));
+    }
+    rows += "</tr>\n";
+  }
+  return fmt::format(
+      "<div class=\"strip\"><h4>Energy by motion</h4><p>Across: motion in x; down: motion in y. From {} to "
+      "{}. {}</p><div "
+      "class=\"wide\"><table class=\"heat\"><tbody>{}</tbody></table></div></div>\n",
+      whole(low), whole(high),
+      all_optimal ? "Every lower bound equals its energy: all are proven optimal."
+                  : "The small figure is the lower bound where it is not the energy itself.",
+      rows);
+}
+
+std::string energies_csv(const RetargetSet& set) {
+  std::string csv = "motion_x,motion_y,start_energy,energy,lower_bound\n";
+  for (const auto& [record, move] : set.tiles) {
+    csv += fmt::format("{},{},{},{},{}\n", record.motion.x, record.motion.y, record.start_energy,
+                       record.energy, record.lower_bound);
+  }
+  return csv;
+}
+
+std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
+
+}  // namespace
+
+Section retarget_section(const RetargetSet& set, const Reference& reference, const std::string& file_name,
+                         const Execution& execution) {
+  const RetargetSet::Tile& tile = main_tile(set);
+  const Metadata& metadata = set.metadata;
+  const Audit checked = audit(set);
+  const auto count = static_cast<int>(set.tiles.size());
+  const Extent size = tile.move.size();
+  const Shape shape{size.width, size.height};
+  const bool sound = checked.permutations == count && (!checked.recomputed || checked.energies == count);
+
+  Section section;
+  section.failed = !sound;
+  const std::string verdict = !sound                     ? badge(false, "not as recorded")
+                              : checked.optimal == count ? badge(true, "proven optimal")
+                                                         : badge(true, "as recorded");
+  std::string& html = section.html;
+  html += fmt::format("<h2>{} {}</h2>\n", escaped(set.name), verdict);
+  std::string files;
+  for (const std::string& name : set.files) files += (files.empty() ? "" : ", ") + escaped(name);
+  html += fmt::format("<p class=\"about\">{} tile{} of {} × {} pixels, {}{}.</p>\n", count,
+                      count == 1 ? "" : "s", size.width, size.height, files,
+                      set.seconds ? fmt::format(", made in {} s", number(*set.seconds)) : "");
+
+  // --- pictures ---
+  const double start = static_cast<double>(tile.record.start_energy);
+  section.plots.push_back(moves_plot(set, tile, file_name + "-moves"));
+  std::string gallery, plots;
+  double mean_length = 0.0;
+  for (const Offset r : tile.move)
+    mean_length += std::hypot(r.x - tile.record.motion.x, r.y - tile.record.motion.y);
+  mean_length /= static_cast<double>(tile.move.count());
+  gallery += figure({.image = moves_image(tile.move, tile.record.motion, *metadata.radius),
+                     .scale = scale_for(size.width, 256),
+                     .title = "The moves.",
+                     .caption = fmt::format("Direction as hue, length as strength; on average {} pixels.",
+                                            number(mean_length))});
+  const Image legend = moves_legend(*metadata.radius);
+  gallery += figure({.image = legend,
+                     .scale = scale_for(legend.size.width, 128),
+                     .title = "Their legend.",
+                     .caption = fmt::format("The colour of each move within {} pixels; the middle stays.",
+                                            *metadata.radius)});
+  plots += plot_figure(section.plots[0], 0, "Lengths of the moves",
+                       fmt::format("Share of the pixels, by {} length, motion taken out.",
+                                   metadata.reach == "euclidean" ? "Euclidean" : "Chebyshev"));
+
+  if (set.levels) {
+    const Grid<double> residual = residual_of(*set.levels, tile.move, *metadata.step);
+    double largest = 0.0, sum = 0.0;
+    for (const double v : residual) {
+      largest = std::max(largest, std::abs(v));
+      sum += std::abs(v);
+    }
+    gallery += figure(
+        {.image = signed_image(residual, largest),
+         .scale = scale_for(size.width, 256),
+         .title = "The residual.",
+         .caption = fmt::format("Level left minus level reached; full colour is {}, the mean size {} levels.",
+                                number(largest), number(sum / static_cast<double>(residual.count())))});
+    const std::vector<double> values(residual.begin(), residual.end());
+    const PowerSpectrum residual_power = power_spectrum(values, shape, execution);
+    const Image picture = spectrum_image(residual_power, kMostShown);
+    gallery += figure({.image = picture,
+                       .scale = scale_for(picture.size.width, 256),
+                       .title = "Its spectrum.",
+                       .caption = "Power in decibels, −50 (black) to +12.5 dB (white)."});
+    const RadialCurve residual_curve = radial_power(residual_power);
+    Plot residual_plot{PlotStyle::power, file_name + "-residual", "frequency_cycles_per_pixel", "power", {}};
+    residual_plot.curves.push_back({"white noise", Role::white, 0, {0.0, 0.7071}, {1.0, 1.0}});
+    residual_plot.curves.push_back(
+        {"residual", Role::texture, 0, residual_curve.frequency, residual_curve.power});
+    section.plots.push_back(std::move(residual_plot));
+    plots +=
+        plot_figure(section.plots[1], 1, "Power of the residual",
+                    fmt::format("What a retarget gets wrong, by frequency; {} in 0 &lt; <i>f</i> ≤ .0625.",
+                                number(band_power(residual_power).mean[0])));
+
+    Plot dither = power_plot(file_name + "-dither", reference);
+    const std::vector<double> mask(set.levels->begin(), set.levels->end());
+    const RadialCurve mask_curve = radial_power(analyse(mask, shape, 0.0, 1.0, execution).power);
+    dither.curves.push_back({"the mask", Role::texture, 0, mask_curve.frequency, mask_curve.power});
+    const auto screens = repeated(*set.levels, tile.move, *metadata.step);
+    std::string bands;
+    for (std::size_t i = 0; i < screens.size(); ++i) {
+      const PowerSpectrum power = analyse(screens[i], shape, 0.0, 1.0, execution).power;
+      const RadialCurve curve = radial_power(power);
+      const std::string after = fmt::format("after {}", kRepeats[i]);
+      dither.curves.push_back({after, Role::texture, static_cast<int>(i) + 1, curve.frequency, curve.power});
+      const std::string band = number(band_power(power).mean[0]);
+      bands += fmt::format("{}{} {}", i == 0 ? "" : ", ", band, after);
+      const Image spectrum = spectrum_image(power, 256);
+      gallery += figure({.image = spectrum,
+                         .scale = scale_for(spectrum.size.width, 192),
+                         .title = fmt::format("Dither {}.", after),
+                         .caption = fmt::format("Spectrum after {} retarget{} in a row; lowest band {}.",
+                                                kRepeats[i], kRepeats[i] == 1 ? "" : "s", band)});
+    }
+    section.plots.push_back(std::move(dither));
+    plots += plot_figure(
+        section.plots[2], 2, "The dither after retargets in a row",
+        fmt::format("Without a new sort in between. Power in 0 &lt; <i>f</i> ≤ .0625: {}.", bands));
+  }
+  html += "<div class=\"gallery\">" + gallery + "</div>\n<div class=\"plots\">" + plots + "</div>\n" +
+          heat_map(set);
+
+  // --- facts ---
+  const TileRecord& record = tile.record;
+  const double gap = record.lower_bound > 0 ? static_cast<double>(record.energy - record.lower_bound) /
+                                                  static_cast<double>(record.lower_bound)
+                                            : 0.0;
+  const auto of_all = [&](int part) { return fmt::format("{} of {} {}", part, count, badge(part == count)); };
+  std::string facts;
+  facts +=
+      fact("mask", set.mask_name.empty() ? escaped(metadata.source.value_or("–")) : escaped(set.mask_name));
+  facts += fact("step, orbit", fmt::format("({}, {}), {} frames", metadata.step->x, metadata.step->y,
+                                           orbit_length(size, *metadata.step)));
+  facts +=
+      fact("radius, reach, metric, border",
+           fmt::format("{} px, {}, {}, {}", *metadata.radius, escaped(metadata.reach.value_or("chebyshev")),
+                       escaped(metadata.metric.value_or("l1")),
+                       metadata.wrap.value_or(true) ? "wraps" : "closed"));
+  facts += fact("energy of the tile shown",
+                fmt::format("{} ({} of the {} without moves)", whole(record.energy),
+                            start > 0.0 ? percent(static_cast<double>(record.energy) / start) : "–",
+                            whole(record.start_energy)));
+  facts += fact("proven lower bound", fmt::format("{} (gap {})", whole(record.lower_bound), percent(gap)));
+  facts += fact("proven optimal", fmt::format("{} of {}", checked.optimal, count));
+  facts += fact("permutations within reach", of_all(checked.permutations));
+  facts += fact("energies as recorded",
+                checked.recomputed ? of_all(checked.energies) : "not recomputed: the mask is missing");
+  if (set.seconds) facts += fact("time of the job", number(*set.seconds) + " s");
+  if (!checked.fault.empty()) facts += fact("fault", escaped(checked.fault));
+  html += fmt::format(
+      "<div class=\"wide\"><table class=\"facts\"><caption>Figures; everything but the bounds and the time "
+      "is "
+      "recomputed.</caption><tbody>{}</tbody></table></div>\n",
+      facts);
+  if (!metadata.recipe.empty()) {
+    html +=
+        fmt::format("<details><summary>Recipe</summary><pre>{}</pre></details>\n", escaped(metadata.recipe));
+  }
+  section.tables.emplace_back(file_name + "-energies", energies_csv(set));
+  section.summary = fmt::format(
+      "<td>{} × {}</td><td>{}</td><td class=\"extra\">energy {}</td><td class=\"extra\">{}</td>", size.width,
+      size.height, verdict, whole(record.energy), set.seconds ? number(*set.seconds) + " s" : "");
+  return section;
+}
+
+}  // namespace bn::report

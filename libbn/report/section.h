@@ -1,0 +1,47 @@
+// The parts of the page, each made by itself so that they can be made at once.
+
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "report/plot.h"
+#include "report/sources.h"
+
+namespace bn::report {
+
+struct Section {
+  std::string html;  ///< holds plot_slot(i) where plots[i] belongs
+  std::vector<Plot> plots;
+  std::vector<std::pair<std::string, std::string>>
+      tables;           ///< CSV that is no plot: file name without extension, text
+  std::string summary;  ///< cells of its row in the table at the top
+  std::string card;     ///< for --compare: the pictures and the main figures
+  bool failed = false;  ///< misses a threshold
+};
+
+/// A mark that no text of a file can hold, since escaped() lets no control character pass.
+std::string plot_slot(std::size_t index);
+
+/// The place of a plot, with its key. `caption` is HTML.
+std::string plot_figure(const Plot& plot, std::size_t index, std::string_view title,
+                        std::string_view caption);
+
+/// What good looks like: the averaged power of four void-and-cluster masks of 128 x 128, sigma 1.9.
+struct Reference {
+  RadialCurve radial;
+};
+Reference make_reference(const Execution& execution);
+
+/// Power and anisotropy of textures with white noise and the reference behind them.
+Plot power_plot(std::string file_name, const Reference& reference);
+Plot anisotropy_plot(std::string file_name, const Reference& reference);
+
+/// `file_name`: what its CSV files begin with.
+Section texture_section(const Texture& texture, const Reference& reference, const std::string& file_name,
+                        const Execution& execution);
+Section retarget_section(const RetargetSet& set, const Reference& reference, const std::string& file_name,
+                         const Execution& execution);
+
+}  // namespace bn::report

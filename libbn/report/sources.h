@@ -1,0 +1,56 @@
+// Which textures there are to report on: files and folders to textures, encodings of one put together.
+
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bn/report.h"
+#include "bn/spectrum.h"
+#include "bn/texture.h"
+
+namespace bn::report {
+
+/// A scalar texture: one channel of a picture, or of a stack of them.
+struct Texture {
+  std::string name;  ///< as the user would name it
+  Shape shape;
+  std::vector<double> values;    ///< as stored
+  double low = 0.0, high = 1.0;  ///< what an even spread of values would cover
+  SampleType type = SampleType::u8;
+  std::optional<Metadata> metadata;
+  std::vector<std::string> also;  ///< other encodings of it
+  std::optional<double> seconds;  ///< that its job took
+};
+
+/// The retarget tiles of one mask and one set of options, in scatter form, in the order of their motions by
+/// row.
+struct RetargetSet {
+  struct Tile {
+    TileRecord record;
+    Grid<Offset> move;
+  };
+  std::string name;
+  std::vector<std::string> files;
+  Metadata metadata;  ///< of its first file; tiles and recipe are that file's
+  std::vector<Tile> tiles;
+  std::optional<Grid<std::int32_t>> levels;  ///< of its mask, if that is at hand
+  std::string mask_name;
+  std::optional<double> seconds;
+};
+
+struct Collection {
+  std::vector<Texture> textures;
+  std::vector<RetargetSet> retarget_sets;
+  std::vector<std::string> notes;
+  int readable = 0;  ///< files that were read
+};
+
+Collection collect(const ReportOptions& options, const Execution& execution);
+
+/// Names as people order them: digits by their value.
+bool natural_less(std::string_view a, std::string_view b);
+
+}  // namespace bn::report
