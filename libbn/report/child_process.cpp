@@ -15,6 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <system_error>
@@ -146,7 +147,8 @@ ChildResult run_child(const std::filesystem::path& program, const std::vector<st
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   result.output = out.content();
-  const std::string said = last_line(err.content());
+  result.errors = err.content();
+  const std::string said = last_line(result.errors);
   if (killed) {
     result.failure = fmt::format("took more than {} s", std::chrono::duration<double>(limit).count());
   } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {

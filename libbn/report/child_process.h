@@ -20,6 +20,7 @@ struct ChildResult {
   bool succeeded = false;  ///< ended by itself with exit code 0
   std::string failure;     ///< else why, in words, with the last line of its stderr
   std::string output;      ///< its stdout
+  std::string errors;      ///< its stderr
 };
 
 /// Runs `program` with `input` as its stdin. Its locale is C whatever ours is. Killed at the limit or when

@@ -19,7 +19,7 @@ struct ReportOptions {
   /// each job took.
   std::vector<std::filesystem::path> inputs;
   std::filesystem::path out;      ///< the page
-  std::filesystem::path csv_dir;  ///< empty, or the folder for one CSV file a plot; made if its parent exists
+  std::filesystem::path csv_dir = {};  ///< empty, or the folder for one CSV file a plot; made if its parent exists
   bool compare = false;           ///< begin with all textures side by side and their curves in common plots
   /// The inputs are volumes: each folder is one, its files its slices in name order (numbers by their value);
   /// all files given by name are the slices of one more, in the order given.

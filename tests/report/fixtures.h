@@ -1,0 +1,81 @@
+// Textures that the report tests look at.
+
+#pragma once
+
+#include "bn/noise.h"
+#include "bn/report.h"
+#include "bn/retarget.h"
+#include "texture/fixtures.h"
+
+namespace bn::report {
+
+using texture::bytes_of;
+using texture::put_bytes;
+using texture::TemporaryFolder;
+
+inline std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+inline Metadata mask_metadata() {
+  Metadata metadata;
+  metadata.algorithm = "void-and-cluster";
+  metadata.algorithm_version = 1;
+  metadata.kind = "mask";
+  metadata.seed = 1;
+  return metadata;
+}
+
+inline Image mask_image(int side, std::uint64_t seed) {
+  return encode_mask(void_and_cluster({.size = {side, side}, .seed = seed}), SampleType::u8);
+}
+
+inline void write_mask(const std::filesystem::path& path, int side, std::uint64_t seed) {
+  write_image(path, mask_image(side, seed), mask_metadata());
+}
+
+/// set/mask.png, set/atlas.png (nine motions) and a manifest, as a bake leaves them.
+inline void write_set(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "set");
+  const Image mask = mask_image(32, 1);
+  write_image(folder / "set/mask.png", mask, mask_metadata());
+  const RetargetOptions options{.step = {24, 19}, .radius = 4};
+  Metadata metadata;
+  metadata.algorithm = "retarget-exact";
+  metadata.algorithm_version = 1;
+  metadata.kind = "retarget-atlas";
+  metadata.step = options.step;
+  metadata.radius = options.radius;
+  metadata.reach = "chebyshev";
+  metadata.metric = "l1";
+  metadata.wrap = true;
+  metadata.form = "scatter";
+  metadata.source = "mask.png";
+  metadata.source_channel = 0;
+  metadata.source_hash = pixel_hash(mask);
+  std::vector<Image> tiles;
+  const auto set = solve_motion_set(levels_of_channel(mask, 0).value, options, 1);
+  for (int i = 0; i < 9; ++i) {
+    const RetargetTile& tile = set[static_cast<std::size_t>(i)];
+    tiles.push_back(encode_moves(tile.move));
+    metadata.tiles.push_back({{i % 3 - 1, i / 3 - 1}, tile.start_energy, tile.energy, tile.lower_bound});
+  }
+  write_image(folder / "set/atlas.png", make_atlas(tiles, 3), metadata);
+  write_text_file(folder / "manifest.json",
+                  R"({"jobs": [{"name": "m", "kind": "mask", "files": [{"path": "set/mask.png"}]},
+                      {"name": "moves", "kind": "retarget", "files": [{"path": "set/atlas.png"}]}],
+                      "times": {"jobs": {"m": 0.5, "moves": 1.25}}})");
+}
+
+inline void write_volume(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  const auto slices = golden_ratio_slices(void_and_cluster({.size = {32, 32}}), 12);
+  for (std::size_t z = 0; z < slices.size(); ++z) {
+    write_image(folder / ("slice" + std::to_string(z) + ".png"), encode_mask(slices[z], SampleType::u8),
+                mask_metadata());
+  }
+}
+
+}  // namespace bn::report

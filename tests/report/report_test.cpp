@@ -1,0 +1,185 @@
+// Protects: a page that is whole without gnuplot, safe whatever files hold, the same bytes each time; errors
+// before work.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <thread>
+
+#include "report/child_process.h"
+#include "report/fixtures.h"
+#include "report/html.h"
+#include "report/plot.h"
+#include "report/sources.h"
+
+namespace bn::report {
+namespace {
+
+TEST(Html, EscapesWhatMeansSomethingAndReplacesWhatIsNoText) {
+  EXPECT_EQ(escaped("<a href=\"x\" id='y'>&"), "&lt;a href=&quot;x&quot; id=&#39;y&#39;&gt;&amp;");
+  EXPECT_EQ(escaped("a\x01\x02\x7f\xc2\x85\n"), "a\uFFFD\uFFFD\uFFFD\uFFFD\n");
+  EXPECT_EQ(escaped("\xff\xc0\xaf\xe2\x82"), "\uFFFD\uFFFD\uFFFD\uFFFD\uFFFD");
+  EXPECT_EQ(escaped("blå 藍"), "blå 藍");
+}
+
+TEST(Html, Base64HasTheVectorsOfRfc4648) {
+  const auto of = [](std::string_view text) {
+    return base64({reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+  };
+  EXPECT_EQ(of(""), "");
+  EXPECT_EQ(of("f"), "Zg==");
+  EXPECT_EQ(of("fo"), "Zm8=");
+  EXPECT_EQ(of("foo"), "Zm9v");
+  EXPECT_EQ(of("foobar"), "Zm9vYmFy");
+}
+
+TEST(Html, NumbersHaveThreeDigits) {
+  EXPECT_EQ(number(0.05181), "0.0518");
+  EXPECT_EQ(number(-12.34), "−12.3");
+  EXPECT_EQ(number(348180), "348,180");
+  EXPECT_EQ(number(2.36e-5), "2.4\u202F×\u202F10<sup>−5</sup>");
+  EXPECT_EQ(number(std::nan("")), "–");
+}
+
+TEST(Sources, NamesAreOrderedByTheValueOfTheirNumbers) {
+  EXPECT_TRUE(natural_less("slice2.png", "slice10.png"));
+  EXPECT_FALSE(natural_less("slice10.png", "slice2.png"));
+  EXPECT_TRUE(natural_less("a", "b"));
+  EXPECT_TRUE(natural_less("a", "a1"));
+  EXPECT_FALSE(natural_less("a1", "a1"));
+  EXPECT_NE(natural_less("a01", "a1"), natural_less("a1", "a01"));
+}
+
+TEST(Child, IsEndedAtItsLimitAndOnRequest) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto late = run_child("/bin/sleep", {"100"}, "", std::chrono::milliseconds(50), {});
+  EXPECT_FALSE(late.succeeded);
+  EXPECT_NE(late.failure, "");
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_FALSE(run_child("/bin/sleep", {"100"}, "", std::chrono::seconds(100), stop.get_token()).succeeded);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(60));
+}
+
+TEST(Child, PassesMuchInputAndOutputAndReportsFailure) {
+  const std::string much(3'000'000, 'x');
+  EXPECT_EQ(run_child("/bin/cat", {}, much, std::chrono::seconds(60), {}).output, much);
+  EXPECT_FALSE(run_child("/bin/false", {}, "", std::chrono::seconds(60), {}).succeeded);
+  EXPECT_FALSE(run_child("/nowhere/at/all", {}, "", std::chrono::seconds(60), {}).succeeded);
+}
+
+TEST(Plot, CsvQuotesNamesAndKeepsEveryDigit) {
+  const Plot plot{PlotStyle::power,
+                  "p",
+                  "x",
+                  "y",
+                  {{"a \"b\", c", Role::texture, 0, {0.1, 0.2}, {1.0 / 3, std::nan("")}}}};
+  EXPECT_EQ(to_csv(plot), "curve,x,y\n\"a \"\"b\"\", c\",0.1,0.3333333333333333\n\"a \"\"b\"\", c\",0.2,\n");
+}
+
+class Report : public ::testing::Test {
+ protected:
+  TemporaryFolder folder;
+  std::string page() const { return bytes_of(folder / "r.html"); }
+};
+
+TEST_F(Report, IsWholeWithoutGnuplotAndSaysSo) {
+  write_mask(folder / "mask.png", 32, 1);
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "", 1);
+  const auto summary = write_report({.inputs = {folder / "mask.png"}, .out = folder / "r.html"});
+  ::setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(summary.notes.size(), 1u);
+  EXPECT_NE(summary.notes[0].find("gnuplot"), std::string::npos);
+  EXPECT_NE(page().find("gnuplot is not installed"), std::string::npos);
+  EXPECT_NE(page().find("class=\"merit\""), std::string::npos);
+  EXPECT_GT(count_of(page(), "<img"), 30u);
+  EXPECT_EQ(count_of(page(), "<svg"), 0u);
+}
+
+TEST_F(Report, HasTheSameBytesForAnyNumberOfThreads) {
+  write_set(folder.path());
+  write_report({.inputs = {folder.path()}, .out = folder / "r.html", .compare = true}, {.threads = 1});
+  const std::string one = page();
+  write_report({.inputs = {folder.path()}, .out = folder / "r.html", .compare = true}, {.threads = 5});
+  EXPECT_TRUE(one == page());
+}
+
+TEST_F(Report, LetsNothingOfAFileBecomeMarkup) {
+  const std::string evil = "x<script>alert(1)</script>&\"'.png";
+  Metadata metadata = mask_metadata();
+  metadata.recipe = "</pre><script>alert(2)</script>";
+  metadata.algorithm = "<img src=x>";
+  const std::string name = "<b onclick='x'>.png";
+  write_image(folder / name, mask_image(16, 1), metadata);
+  put_bytes(folder / "<i>broken.png", evil);
+  const auto summary = write_report({.inputs = {folder.path()}, .out = folder / "r.html"});
+  EXPECT_EQ(summary.masks, 1);
+  EXPECT_EQ(count_of(page(), "<script"), 0u);
+  EXPECT_EQ(count_of(page(), "<b onclick"), 0u);
+  EXPECT_EQ(count_of(page(), "<img src=x"), 0u);
+  EXPECT_EQ(count_of(page(), "<i>broken"), 0u);
+  EXPECT_GE(count_of(page(), "&lt;i&gt;broken"), 1u);
+}
+
+TEST_F(Report, NotesWhatIsUnreadableAndFailsOnlyIfAllIs) {
+  put_bytes(folder / "bad.png", "no picture");
+  EXPECT_THROW(write_report({.inputs = {folder / "bad.png"}, .out = folder / "r.html"}), Error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.html"));
+  write_mask(folder / "mask.png", 16, 1);
+  const auto summary = write_report(
+      {.inputs = {folder / "bad.png", folder / "mask.png", folder / "none.png"}, .out = folder / "r.html"});
+  EXPECT_EQ(summary.masks, 1);
+  EXPECT_GE(summary.notes.size(), 2u);
+  EXPECT_THROW(write_report({.inputs = {}, .out = folder / "r.html"}), Error);
+}
+
+TEST_F(Report, ChecksItsOutputBeforeTheWork) {
+  // The input does not exist, so whoever complains of the output has looked at that first.
+  for (const ReportOptions& options :
+       {ReportOptions{.inputs = {folder / "none"}, .out = folder / "no/r.html"},
+        ReportOptions{.inputs = {folder / "none"}, .out = folder.path()},
+        ReportOptions{.inputs = {folder / "none"}, .out = folder / "r.html", .csv_dir = folder / "no/csv"}}) {
+    try {
+      write_report(options);
+      ADD_FAILURE();
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::io);
+      EXPECT_EQ(error.info().where.find("none"), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(Report, RecomputesRetargetSetsAndFindsWhatIsWrong) {
+  write_set(folder.path());
+  auto summary = write_report({.inputs = {folder.path()}, .out = folder / "r.html"});
+  EXPECT_EQ(summary.retarget_sets, 1);
+  EXPECT_EQ(summary.failed, 0);
+  EXPECT_NE(page().find("proven optimal"), std::string::npos);
+  EXPECT_NE(page().find("made in 1.25 s"), std::string::npos);  // from the manifest
+
+  FileContent content = read_image(folder / "set/atlas.png");
+  content.metadata->tiles[0].energy += 1;
+  write_image(folder / "set/atlas.png", content.image, *content.metadata);
+  summary = write_report({.inputs = {folder.path()}, .out = folder / "r.html"});
+  EXPECT_EQ(summary.failed, 1);
+  EXPECT_NE(page().find("not as recorded"), std::string::npos);
+}
+
+TEST_F(Report, WritesTheCurvesAsCsv) {
+  write_set(folder.path());
+  write_report({.inputs = {folder.path()}, .out = folder / "r.html", .csv_dir = folder / "csv"});
+  EXPECT_TRUE(bytes_of(folder / "csv/set-mask-png-power.csv")
+                  .starts_with("curve,frequency_cycles_per_pixel,power\n"));
+  EXPECT_EQ(count_of(bytes_of(folder / "csv/moves-energies.csv"), "\n"), 10u);  // a header and nine motions
+}
+
+TEST_F(Report, TakesAFolderAsAVolume) {
+  write_volume(folder / "slices");
+  const auto summary =
+      write_report({.inputs = {folder / "slices"}, .out = folder / "r.html", .volume = true});
+  EXPECT_EQ(summary.volumes, 1);
+  EXPECT_NE(page().find("Spectrum in x and time"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bn::report
