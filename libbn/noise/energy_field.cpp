@@ -7,8 +7,8 @@ namespace {
 
 int blocks_for(int pixels) { return (pixels + kBlockSide - 1) / kBlockSide; }
 
-/// Across the seam of the torus lies, where the side is no multiple of a block's, one block that may be a single
-/// pixel wide.
+/// Across the seam of the torus lies, where the side is no multiple of a block's, one block that may be
+/// a single pixel wide.
 int reach_in_blocks(int side, int radius) {
   return side % kBlockSide == 0 ? blocks_for(radius) : 1 + blocks_for(radius - 1);
 }
@@ -29,7 +29,8 @@ EnergyField::EnergyField(Extent extent, int radius, std::int32_t energy)
 }
 
 std::uint64_t EnergyField::bytes(Extent size) {
-  const auto blocks = static_cast<std::uint64_t>(blocks_for(size.width)) * static_cast<std::uint64_t>(blocks_for(size.height));
+  const auto blocks = static_cast<std::uint64_t>(blocks_for(size.width)) *
+                      static_cast<std::uint64_t>(blocks_for(size.height));
   return blocks * (sizeof(EnergyBlock) + sizeof(std::int32_t));
 }
 

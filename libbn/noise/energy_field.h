@@ -1,8 +1,9 @@
 // The energies of all pixels, stored block by block, with the least energy of each block.
 //
-// A block is 8x8 pixels, contiguous in memory, so that the reach of a kernel is a handful of whole blocks: adding it is a
-// run of aligned vector additions whatever the width of the vectors, and the new minimum of a block falls out of the
-// same pass. Blocks beyond the right or lower edge are filled up with pixels that count as set.
+// A block is 8x8 pixels, contiguous in memory, so that the reach of a kernel is a handful of whole
+// blocks: adding it is a run of aligned vector additions whatever the width of the vectors, and the new
+// minimum of a block falls out of the same pass. Blocks beyond the right or lower edge are filled up
+// with pixels that count as set.
 
 #pragma once
 
@@ -46,8 +47,8 @@ struct EnergyField {
 };
 
 /// A kernel laid out for EnergyField: for each position of its left edge within a block (the phase),
-/// its columns of blocks from left to right, each with the weights of all rows, eight to a row, between rows of
-/// zeros. Every block that a kernel meets thus finds its 64 weights side by side.
+/// its columns of blocks from left to right, each with the weights of all rows, eight to a row, between
+/// rows of zeros. Every block that a kernel meets thus finds its 64 weights side by side.
 class BlockKernel {
  public:
   /// `sign` is 1 for a kernel that is added, -1 for one that is taken away.
@@ -58,8 +59,8 @@ class BlockKernel {
   int span(int phase) const { return (phase + 2 * radius_) / kBlockSide + 1; }
   /// The 64 weights for the block at (column, row) of the span.
   const std::int32_t* weights(int phase_x, int column, int phase_y, int row) const {
-    return weights_.data() +
-           (phase_x * max_span_ + column) * column_stride() + (kBlockSide * row - phase_y + kBlockSide - 1) * kBlockSide;
+    return weights_.data() + (phase_x * max_span_ + column) * column_stride() +
+           (kBlockSide * row - phase_y + kBlockSide - 1) * kBlockSide;
   }
   /// From a block's weights to those of the block on its right.
   std::ptrdiff_t column_stride() const { return std::ptrdiff_t{rows_} * kBlockSide; }

@@ -1,26 +1,27 @@
 // Filling the largest voids, many at a time, in the very order that one at a time would give.
 //
 // Problem. Void-and-cluster sets, N times, the unset pixel of least (energy, index) and adds a kernel
-// around it. One at a time that is a search over the whole torus for each pixel, and no two searches are in the same place.
+// around it. One at a time that is a search over the whole torus for each pixel, and no two searches
+// are in the same place.
 //
-// Method. Energies only grow while pixels are set. So a pixel that is the least among all unset
-// pixels within the radius of the kernel keeps its energy until it is set: whoever could raise it would have to come
-// first, and cannot. It may be set at once, whatever is going on elsewhere. And as each step of the sequential order
-// sets the least of what is left, while what is left only grows, that order is the order of (energy
-// when set, index): sorting by it afterwards gives the ranks (rank_order.h).
+// Method. Energies only grow while pixels are set. So a pixel that is the least among all unset pixels
+// within the radius of the kernel keeps its energy until it is set: whoever could raise it would have
+// to come first, and cannot. It may be set at once, whatever is going on elsewhere. And as each step of
+// the sequential order sets the least of what is left, while what is left only grows, that order is the
+// order of (energy when set, index): sorting by it afterwards gives the ranks (rank_order.h).
 //
-// Here the test is made for whole blocks of 8x8 pixels: a block may set its least pixel if its
-// minimum is below those of all blocks in reach. That is stricter than necessary and a few vector
-// instructions for sixteen blocks. A round finds all such blocks of a tile, then sets their pixels; no
-// two are in reach of each other. About one block in thirty is found in a round.
+// Here the test is made for whole blocks of 8x8 pixels: a block may set its least pixel if its minimum
+// is below those of all blocks in reach. That is stricter than necessary and a few vector instructions
+// for sixteen blocks. A round finds all such blocks of a tile, then sets their pixels; no two are in
+// reach of each other. About one block in thirty is found in a round.
 //
 // Invariants. (1) Minima of blocks outside the tile may be out of date by any number of rounds: they
 // are lower bounds, so waiting for them is safe. (2) The least pixel of the whole torus never waits, so
-// visiting all tiles again and again ends. (3) Which blocks are found depends on the visits; which energy a pixel has
-// when it is set does not.
+// visiting all tiles again and again ends. (3) Which blocks are found depends on the visits; which
+// energy a pixel has when it is set does not.
 //
-// Source: the order is that of Ulichney 1993; the local rule is the one of conservative parallel
-// event simulation (Chandy & Misra 1979).
+// Source: the order is that of Ulichney 1993; the local rule is the one of conservative parallel event
+// simulation (Chandy & Misra 1979).
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "noise/fill_tile.cpp"
@@ -45,7 +46,8 @@ constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
 static_assert(kBlockPixels % kLanes == 0);
 
 /// Adds 64 weights to a block; returns the least sum of each lane.
-HWY_INLINE hn::Vec<Tag> add_weights(const std::int32_t* HWY_RESTRICT weights, std::int32_t* HWY_RESTRICT energy) {
+HWY_INLINE hn::Vec<Tag> add_weights(const std::int32_t* HWY_RESTRICT weights,
+                                    std::int32_t* HWY_RESTRICT energy) {
   const Tag d;
   auto least = hn::Add(hn::Load(d, energy), hn::LoadU(d, weights));
   hn::Store(least, d, energy);
@@ -70,11 +72,14 @@ HWY_INLINE void store_minima_of_quarters(D d, hn::Vec<D> v, std::int32_t* to) {
 }
 
 /// Stores the minimum of each of four vectors: a transposition that takes minima on its way.
-HWY_INLINE void store_four_minima(hn::Vec<Tag> v0, hn::Vec<Tag> v1, hn::Vec<Tag> v2, hn::Vec<Tag> v3, std::int32_t* to) {
+HWY_INLINE void store_four_minima(hn::Vec<Tag> v0, hn::Vec<Tag> v1, hn::Vec<Tag> v2, hn::Vec<Tag> v3,
+                                  std::int32_t* to) {
   const Tag d;
   const hn::Repartition<std::int64_t, Tag> pairs;
-  const auto v01 = hn::BitCast(pairs, hn::Min(hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1)));
-  const auto v23 = hn::BitCast(pairs, hn::Min(hn::InterleaveLower(d, v2, v3), hn::InterleaveUpper(d, v2, v3)));
+  const auto v01 =
+      hn::BitCast(pairs, hn::Min(hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1)));
+  const auto v23 =
+      hn::BitCast(pairs, hn::Min(hn::InterleaveLower(d, v2, v3), hn::InterleaveUpper(d, v2, v3)));
   const auto low = hn::BitCast(d, hn::InterleaveLower(pairs, v01, v23));
   const auto high = hn::BitCast(d, hn::InterleaveUpper(pairs, v01, v23));
   store_minima_of_quarters(d, hn::Min(low, high), to);
@@ -120,7 +125,8 @@ HWY_INLINE void add_image(EnergyField& field, const BlockKernel& kernel, int x, 
       alignas(16) std::int32_t least[4];
       store_four_minima(v0, v1, v2, v2, least);
       const hn::CappedTag<std::int32_t, 4> four;
-      hn::BlendedStore(hn::Load(four, least), hn::FirstN(four, static_cast<std::size_t>(columns - i)), four, minima + i);
+      hn::BlendedStore(hn::Load(four, least), hn::FirstN(four, static_cast<std::size_t>(columns - i)), four,
+                       minima + i);
       i = columns;
     }
 #endif
@@ -159,7 +165,8 @@ HWY_INLINE int find_in_block(const std::int32_t* energy, std::int32_t value) {
 
 class TileFiller {
  public:
-  TileFiller(EnergyField& field, const BlockKernel& kernel, const BlockRect& tile, std::uint32_t* energy_when_set)
+  TileFiller(EnergyField& field, const BlockKernel& kernel, const BlockRect& tile,
+             std::uint32_t* energy_when_set)
       : field_(field),
         kernel_(kernel),
         tile_(tile),
@@ -240,12 +247,15 @@ class TileFiller {
         const std::int32_t* at = least_.data() + row * stride_ + x;
         auto others = hn::LoadU(d, least_of_others_.data() + (row + reach_y) * stride_ + x);
         for (int dy = 0; dy < reach_y; ++dy) {
-          others = hn::Min(others, hn::Min(hn::LoadU(d, at + dy * stride_), hn::LoadU(d, at + (2 * reach_y - dy) * stride_)));
+          others = hn::Min(others, hn::Min(hn::LoadU(d, at + dy * stride_),
+                                           hn::LoadU(d, at + (2 * reach_y - dy) * stride_)));
         }
         const auto own = hn::LoadU(d, around_.data() + (row + reach_y) * stride_ + reach_x + x);
-        const auto open = hn::And(hn::Lt(own, set_mark), hn::FirstN(d, static_cast<std::size_t>(columns_ - x)));
+        const auto open =
+            hn::And(hn::Lt(own, set_mark), hn::FirstN(d, static_cast<std::size_t>(columns_ - x)));
         const auto blocks = hn::Iota(d, row * columns_ + x);
-        leading += hn::CompressStore(blocks, hn::And(hn::Lt(own, others), open), d, leading_.data() + leading);
+        leading +=
+            hn::CompressStore(blocks, hn::And(hn::Lt(own, others), open), d, leading_.data() + leading);
         tied += hn::CompressStore(blocks, hn::And(hn::Eq(own, others), open), d, tied_.data() + tied);
       }
     }
@@ -298,7 +308,8 @@ class TileFiller {
   Pixel mark_least_pixel(int block) {
     const Pixel pixel = least_pixel(block);
     std::int32_t& energy = field_.blocks[static_cast<std::size_t>(block)].energy[pixel.in_block];
-    energy_when_set_[std::int64_t{pixel.y} * field_.size.width + pixel.x] = static_cast<std::uint32_t>(energy);
+    energy_when_set_[std::int64_t{pixel.y} * field_.size.width + pixel.x] =
+        static_cast<std::uint32_t>(energy);
     energy += kSetMark;
     return pixel;
   }

@@ -19,10 +19,11 @@ struct BlockRect {
 /// Adds `kernel` around pixel (x, y), everywhere it reaches on the torus, and keeps the minima.
 void add_kernel(EnergyField& field, const BlockKernel& kernel, int x, int y);
 
-/// In each round, sets the pixels within `tile` that are the least (energy, index) of all unset
-/// pixels in reach. Ends early when there is none: the tile is full or waits for its neighbours.
-/// Writes the energy of each pixel when it was set to energy_when_set[y * width + x]; returns how many
-/// were set. Writes no energy and no minimum farther than the reach of a kernel from the tile, and reads none farther.
+/// In each round, sets the pixels within `tile` that are the least (energy, index) of all unset pixels
+/// in reach. Ends early when there is none: the tile is full or waits for its neighbours. Writes the
+/// energy of each pixel when it was set to energy_when_set[y * width + x]; returns how many were set.
+/// Writes no energy and no minimum farther than the reach of a kernel from the tile, and reads none
+/// farther.
 std::int64_t fill_tile(EnergyField& field, const BlockKernel& kernel, const BlockRect& tile, int rounds,
                        std::uint32_t* energy_when_set);
 

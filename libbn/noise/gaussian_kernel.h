@@ -1,8 +1,9 @@
 // The Gaussian through which two pixels of a mask see each other, as integers.
 //
 // Integer weights make adding and removing exact, so energies depend on the set of pixels alone and
-// never on the order in which they came. The scale is chosen so that everything that is ever added up in one pixel fits
-// an int32: the whole kernel once (every pixel set), the random start value, and the mark of a set pixel.
+// never on the order in which they came. The scale is chosen so that everything that is ever added up
+// in one pixel fits an int32: the whole kernel once (every pixel set), the random start value, and the
+// mark of a set pixel.
 
 #pragma once
 
@@ -24,7 +25,8 @@ inline constexpr int kMaxKernelRadius = 64;
 /// stays below kSetMark.
 class GaussianKernel {
  public:
-  /// `cutoff_px` is the radius of the disc, 0 for kMaxKernelRadius. Arguments are checked by the caller.
+  /// `cutoff_px` is the radius of the disc, 0 for kMaxKernelRadius. Arguments are checked by the
+  /// caller.
   GaussianKernel(double sigma_px, int cutoff_px);
 
   /// The largest |x| or |y| of a weight that is not zero.

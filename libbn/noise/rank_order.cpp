@@ -1,6 +1,7 @@
-// A counting sort in two levels: values are dealt into buckets by their highest bits, in chunks of pixels that
-// know where in each bucket they may write, so threads need no agreement and equal values keep the order of
-// their indices; each bucket, now small enough for the cache, is then sorted by the other bits.
+// A counting sort in two levels: values are dealt into buckets by their highest bits, in chunks of
+// pixels that know where in each bucket they may write, so threads need no agreement and equal values
+// keep the order of their indices; each bucket, now small enough for the cache, is then sorted by the
+// other bits.
 
 #include "noise/rank_order.h"
 
@@ -17,7 +18,8 @@ struct Entry {
   std::uint32_t index;
 };
 
-/// Sorts by value and keeps the order of equal ones: two rounds of counting sort, `bits` (<= 22) low bits.
+/// Sorts by value and keeps the order of equal ones: two rounds of counting sort, `bits` (<= 22) low
+/// bits.
 void sort_bucket(Entry* entries, std::size_t count, int bits, std::vector<Entry>& scratch) {
   scratch.resize(std::max(scratch.size(), count));
   const int half = (bits + 1) / 2;

@@ -1,24 +1,24 @@
 // Void-and-cluster (R. Ulichney, "The void-and-cluster method for dither array generation", Proc. SPIE
 // 1913, 1993) on a torus, with integer energies.
 //
-// Definition. Every set pixel adds a Gaussian (gaussian_kernel.h) to the energies around it, itself included. Every
-// pixel starts with a random energy of a few low bits, far below the Gaussian's peak, which decides
-// where nothing else does. Of equal energies the lowest index y * width + x comes first.
-//   1. Initial pattern: on an empty torus, `initial_density` of the pixels are set, always the largest void (the
-//      unset pixel of least energy).
-//   2. From a copy of that pattern the tightest cluster (the set pixel of greatest energy) is taken away until
-//      none is left; the pixel taken away last has rank 0.
+// Definition. Every set pixel adds a Gaussian (gaussian_kernel.h) to the energies around it, itself
+// included. Every pixel starts with a random energy of a few low bits, far below the Gaussian's peak,
+// which decides where nothing else does. Of equal energies the lowest index y * width + x comes first.
+//   1. Initial pattern: on an empty torus, `initial_density` of the pixels are set, always the largest
+//      void (the unset pixel of least energy).
+//   2. From a copy of that pattern the tightest cluster (the set pixel of greatest energy) is taken
+//      away until none is left; the pixel taken away last has rank 0.
 //   3. The pattern itself goes on as in 1 until all pixels are set; they get the ranks that follow.
 //
 // What differs from the paper. Ulichney starts phase 1 from random points and swaps the tightest
-// cluster with the largest void until that changes nothing. A pattern made of largest voids
-// only is such a fixed point but for a swap or two (tests/noise/quality_test.cpp), so the swaps are left out.
-// Ulichney's phases 2 and 3 beyond half the pixels speak of clusters of unset pixels; as the kernel's sum is the same
-// everywhere, the tightest of those is the largest void.
+// cluster with the largest void until that changes nothing. A pattern made of largest voids only is
+// such a fixed point but for a swap or two (tests/noise/quality_test.cpp), so the swaps are left out.
+// Ulichney's phases 2 and 3 beyond half the pixels speak of clusters of unset pixels; as the kernel's
+// sum is the same everywhere, the tightest of those is the largest void.
 //
-// Method. Phases 1 and 3 are one run of largest voids. Phase 2 is such a run too: the energy that the unset pixels give
-// is a constant minus that of the set ones, so the tightest cluster is the least of that. void_order.h finds the
-// order of such a run.
+// Method. Phases 1 and 3 are one run of largest voids. Phase 2 is such a run too: the energy that the
+// unset pixels give is a constant minus that of the set ones, so the tightest cluster is the least of
+// that. void_order.h finds the order of such a run.
 
 #include <fmt/format.h>
 
@@ -50,7 +50,8 @@ constexpr std::uint32_t kStartStream = 1;  // of random_bits
 void check(const VoidAndClusterOptions& options) {
   const auto [width, height] = options.size;
   if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
-    refuse("size", fmt::format("a mask of {}x{} pixels", width, height), fmt::format("1x1..{0}x{0}", kMaxSide));
+    refuse("size", fmt::format("a mask of {}x{} pixels", width, height),
+           fmt::format("1x1..{0}x{0}", kMaxSide));
   }
   // Written so that NaN fails.
   if (!(options.sigma_px >= 0.3 && options.sigma_px <= 16.0)) {
@@ -80,7 +81,8 @@ void for_each_pixel(Extent size, const Execution& execution, const Body& body) {
   });
 }
 
-/// Phases 1 and 3: the place of each pixel in the order of largest voids, from an empty torus to a full one.
+/// Phases 1 and 3: the place of each pixel in the order of largest voids, from an empty torus to a full
+/// one.
 Grid<std::uint32_t> filling_order(const VoidAndClusterOptions& options, const GaussianKernel& kernel,
                                   const Execution& execution, ProgressMeter& meter) {
   EnergyField field(options.size, kernel.radius(), kSetMark);
@@ -91,9 +93,11 @@ Grid<std::uint32_t> filling_order(const VoidAndClusterOptions& options, const Ga
 }
 
 /// Phase 2: gives the pixels whose rank is below `initial` the ranks in which clusters leave them last.
-void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel& kernel, std::uint32_t initial,
-                     Grid<std::uint32_t>& ranks, const Execution& execution, ProgressMeter& meter) {
-  // The energy from the unset pixels: all there can be, minus that from the set ones. Unset pixels carry the mark.
+void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel& kernel,
+                     std::uint32_t initial, Grid<std::uint32_t>& ranks, const Execution& execution,
+                     ProgressMeter& meter) {
+  // The energy from the unset pixels: all there can be, minus that from the set ones. Unset pixels
+  // carry the mark.
   const std::int32_t all = kernel.sum() + kStartEnergyLimit - 1;
   EnergyField field(options.size, kernel.radius(), kSetMark + all);
   for_each_pixel(options.size, execution, [&](int x, int y, std::size_t index) {
@@ -121,10 +125,12 @@ Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const
   const auto count = static_cast<std::uint64_t>(options.size.area());
   const auto initial =
       static_cast<std::uint32_t>(std::floor(options.initial_density * static_cast<double>(count) + 0.5));
-  // Order and energies; then order and, while sorting, 8 bytes a pixel; and what does not grow with the mask.
+  // Order and energies; then order and, while sorting, 8 bytes a pixel; and what does not grow with the
+  // mask.
   constexpr std::uint64_t kConstantBytes = std::uint64_t{1} << 20;
   const std::uint64_t filling = 4 * count + std::max(EnergyField::bytes(options.size), 8 * count);
-  const std::uint64_t removing = initial == 0 ? 0 : 8 * count + std::max(EnergyField::bytes(options.size), std::uint64_t{8} * initial);
+  const std::uint64_t removing =
+      initial == 0 ? 0 : 8 * count + std::max(EnergyField::bytes(options.size), std::uint64_t{8} * initial);
   check_memory(execution, std::max(filling, removing) + kConstantBytes, "void-and-cluster mask");
 
   ProgressMeter meter(execution, count + initial);

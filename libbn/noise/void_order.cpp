@@ -1,10 +1,10 @@
 // Which tile is filled when: a matter of speed alone, as fill_tile.h says.
 //
-// A sweep visits tiles that are small enough for the second-level cache and so far apart that
-// threads may work on all of them at once: within each, pixels are set; the moat between them takes the rims
-// of the kernels. What lies at the rim of a tile waits for the moat, so every sweep moves the
-// tiles, by steps that spread evenly over a tile's side (the two-dimensional golden ratio: M. Roberts,
-// "The unreasonable effectiveness of quasirandom sequences", 2018).
+// A sweep visits tiles that are small enough for the second-level cache and so far apart that threads
+// may work on all of them at once: within each, pixels are set; the moat between them takes the rims of
+// the kernels. What lies at the rim of a tile waits for the moat, so every sweep moves the tiles, by
+// steps that spread evenly over a tile's side (the two-dimensional golden ratio: M. Roberts, "The
+// unreasonable effectiveness of quasirandom sequences", 2018).
 
 #include "noise/void_order.h"
 

@@ -10,8 +10,8 @@
 namespace bn {
 
 /// Fills all unset pixels of the field, always the one of least (energy, index), adding the kernel
-/// around each. Returns for each of them its place in that order, from 0, and kUnranked for all
-/// others. `count` is their number; `meter` advances by as much. Consumes the field.
+/// around each. Returns for each of them its place in that order, from 0, and kUnranked for all others.
+/// `count` is their number; `meter` advances by as much. Consumes the field.
 Grid<std::uint32_t> void_order(EnergyField&& field, const BlockKernel& kernel, std::int64_t count,
                                const Execution& execution, ProgressMeter& meter);
 

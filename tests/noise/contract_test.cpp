@@ -1,5 +1,5 @@
-// Protects: what bn/noise.h promises besides the mask: options refused, memory limited, stops heeded, progress
-// reported, and kernels that cannot overflow.
+// Protects: what bn/noise.h promises besides the mask: options refused, memory limited, stops heeded,
+// progress reported, and kernels that cannot overflow.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,9 +27,12 @@ void expect_refused(const VoidAndClusterOptions& options, const std::string& whe
 TEST(Contract, RefusesOptionsOutsideTheirRange) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  for (const Extent size : {Extent{0, 8}, {8, 0}, {-1, 8}, {16385, 8}, {8, 16385}}) expect_refused({.size = size}, "size");
-  for (const double sigma : {0.0, 0.29, -1.9, 16.1, kNan, kInfinity}) expect_refused({.sigma_px = sigma}, "sigma_px");
-  for (const double density : {-0.1, 0.51, kNan}) expect_refused({.initial_density = density}, "initial_density");
+  for (const Extent size : {Extent{0, 8}, {8, 0}, {-1, 8}, {16385, 8}, {8, 16385}})
+    expect_refused({.size = size}, "size");
+  for (const double sigma : {0.0, 0.29, -1.9, 16.1, kNan, kInfinity})
+    expect_refused({.sigma_px = sigma}, "sigma_px");
+  for (const double density : {-0.1, 0.51, kNan})
+    expect_refused({.initial_density = density}, "initial_density");
   for (const int cutoff : {-1, 65}) expect_refused({.cutoff_px = cutoff}, "cutoff_px");
   EXPECT_THROW(void_and_cluster({}, {.threads = -1}), Error);
 }

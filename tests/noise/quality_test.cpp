@@ -17,19 +17,21 @@ namespace {
 constexpr int kSide = 128;
 using Bands = std::array<double, 4>;
 
-/// Mean of |F|² / (N variance), which is 1 for white noise, over radial frequencies 0 < f <= 1/16 <
-/// f <= 2/16 < f <= 3/16 < f <= 4/16 cycles/pixel. A plain separable transform.
+/// Mean of |F|² / (N variance), which is 1 for white noise, over radial frequencies 0 < f <= 1/16 < f
+/// <= 2/16 < f <= 3/16 < f <= 4/16 cycles/pixel. A plain separable transform.
 Bands band_power(const Grid<std::uint32_t>& ranks) {
   constexpr double kCount = kSide * kSide;
   constexpr double kMean = (kCount - 1.0) / 2.0;
   constexpr double kVariance = (kCount * kCount - 1.0) / 12.0;
   std::vector<std::complex<double>> turn(kSide);
-  for (int i = 0; i < kSide; ++i) turn[static_cast<std::size_t>(i)] = std::polar(1.0, -2.0 * std::numbers::pi * i / kSide);
+  for (int i = 0; i < kSide; ++i)
+    turn[static_cast<std::size_t>(i)] = std::polar(1.0, -2.0 * std::numbers::pi * i / kSide);
 
   Grid<std::complex<double>> rows({kSide, kSide});
   for (int y = 0; y < kSide; ++y) {
     for (int u = 0; u < kSide; ++u) {
-      for (int x = 0; x < kSide; ++x) rows(u, y) += (ranks(x, y) - kMean) * turn[static_cast<std::size_t>(u * x % kSide)];
+      for (int x = 0; x < kSide; ++x)
+        rows(u, y) += (ranks(x, y) - kMean) * turn[static_cast<std::size_t>(u * x % kSide)];
     }
   }
   Bands sum{};
@@ -39,7 +41,8 @@ Bands band_power(const Grid<std::uint32_t>& ranks) {
       const double f = std::hypot(u, v) / kSide;
       if (f == 0.0 || f > 0.25) continue;
       std::complex<double> value = 0.0;
-      for (int y = 0; y < kSide; ++y) value += rows(wrap(u, kSide), y) * turn[static_cast<std::size_t>(wrap(v * y, kSide))];
+      for (int y = 0; y < kSide; ++y)
+        value += rows(wrap(u, kSide), y) * turn[static_cast<std::size_t>(wrap(v * y, kSide))];
       const auto band = static_cast<std::size_t>(std::ceil(f * 16.0)) - 1;
       sum[band] += std::norm(value) / (kCount * kVariance);
       entries[band] += 1.0;
@@ -54,15 +57,16 @@ void expect_blue(double sigma_px, double initial_density, const Bands& limits) {
     const Bands bands = band_power(void_and_cluster(
         {.size = {kSide, kSide}, .sigma_px = sigma_px, .initial_density = initial_density, .seed = seed}));
     for (std::size_t i = 0; i < bands.size(); ++i) {
-      EXPECT_LE(bands[i], limits[i]) << "band " << i << ", sigma " << sigma_px << ", density " << initial_density
-                                     << ", seed " << seed;
+      EXPECT_LE(bands[i], limits[i]) << "band " << i << ", sigma " << sigma_px << ", density "
+                                     << initial_density << ", seed " << seed;
       EXPECT_GE(bands[i], limits[i] / 10.0) << "too good to be true: is the measure broken?";
     }
   }
 }
 
 TEST(Quality, WhiteNoiseReadsOne) {
-  // Ranks in random order; the means of 196 and more exponential variates are within 0.3 of 1 with p > 1 - 1e-4.
+  // Ranks in random order; the means of 196 and more exponential variates are within 0.3 of 1 with p >
+  // 1 - 1e-4.
   std::vector<std::pair<std::uint64_t, std::uint32_t>> keys;
   for (std::uint32_t i = 0; i < kSide * kSide; ++i) keys.push_back({random_bits(1, 99, i), i});
   std::sort(keys.begin(), keys.end());

@@ -1,4 +1,5 @@
-// Void-and-cluster written down as plainly as it can be: the specification that the fast path must equal.
+// Void-and-cluster written down as plainly as it can be: the specification that the fast path must
+// equal.
 
 #pragma once
 
@@ -73,7 +74,8 @@ inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOption
     const std::size_t pixel = pattern.largest_void();
     pattern.set(pixel);
   }
-  // Phase 2: clusters are taken away from a copy of it, the tightest first; the first gets the highest rank.
+  // Phase 2: clusters are taken away from a copy of it, the tightest first; the first gets the highest
+  // rank.
   PlainPattern shrinking = pattern;
   for (std::uint32_t rank = initial; rank-- > 0;) {
     const std::size_t pixel = shrinking.tightest_cluster();
@@ -89,8 +91,8 @@ inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOption
   return ranks;
 }
 
-/// The same for masks too large for the above and an initial density of 0: a queue that holds every unset pixel with an
-/// energy it once had, put back with the present one when it comes up too early.
+/// The same for masks too large for the above and an initial density of 0: a queue that holds every
+/// unset pixel with an energy it once had, put back with the present one when it comes up too early.
 inline Grid<std::uint32_t> queue_void_and_cluster(const VoidAndClusterOptions& options) {
   PlainPattern pattern(options);
   using Entry = std::pair<std::int32_t, std::size_t>;

@@ -1,5 +1,5 @@
-// Protects: every fast path gives the plain reference's mask bit for bit, for any size, option, instruction set and
-// thread count; masks are permutations; their bytes never change unnoticed.
+// Protects: every fast path gives the plain reference's mask bit for bit, for any size, option,
+// instruction set and thread count; masks are permutations; their bytes never change unnoticed.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,15 +18,17 @@ void PrintTo(const VoidAndClusterOptions& options, std::ostream* out) {
 
 namespace {
 
-/// Smaller than the kernel, smaller than a block, with and without partial blocks at the seams, square and not.
-const std::vector<Extent> kSizes = {{1, 1},  {1, 2},  {2, 1},  {1, 40}, {33, 1},  {3, 5},   {7, 11},
-                                    {8, 8},  {9, 33}, {16, 8}, {17, 9}, {13, 64}, {40, 40}, {61, 47}};
+/// Smaller than the kernel, smaller than a block, with and without partial blocks at the seams, square
+/// and not.
+const std::vector<Extent> kSizes = {{1, 1}, {1, 2},  {2, 1},  {1, 40}, {33, 1},  {3, 5},   {7, 11},
+                                    {8, 8}, {9, 33}, {16, 8}, {17, 9}, {13, 64}, {40, 40}, {61, 47}};
 
 std::vector<VoidAndClusterOptions> option_sets() {
   std::vector<VoidAndClusterOptions> sets;
   for (const Extent size : kSizes) {
     for (const double sigma : {0.3, 1.5, 1.9, 3.0}) sets.push_back({.size = size, .sigma_px = sigma});
-    for (const double density : {0.1, 0.5}) sets.push_back({.size = size, .initial_density = density, .seed = 2});
+    for (const double density : {0.1, 0.5})
+      sets.push_back({.size = size, .initial_density = density, .seed = 2});
     for (const int cutoff : {1, 2, 5}) sets.push_back({.size = size, .seed = 3, .cutoff_px = cutoff});
   }
   for (const Extent size : {Extent{1, 1}, {1, 7}, {3, 5}, {13, 12}}) {
@@ -77,9 +79,12 @@ TEST_P(Threads, EqualReferenceOnSeveralTiles) {
   for (const Extent size : {Extent{840, 8}, {8, 840}, {845, 13}}) {
     const VoidAndClusterOptions options{.size = size, .initial_density = 0.1};
     static std::vector<std::pair<VoidAndClusterOptions, Grid<std::uint32_t>>> known;
-    auto found = std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first.size == size; });
-    if (found == known.end()) found = known.insert(known.end(), {options, reference_void_and_cluster(options)});
-    ASSERT_EQ(void_and_cluster(options, {.threads = GetParam()}), found->second) << testing::PrintToString(options);
+    auto found =
+        std::find_if(known.begin(), known.end(), [&](const auto& k) { return k.first.size == size; });
+    if (found == known.end())
+      found = known.insert(known.end(), {options, reference_void_and_cluster(options)});
+    ASSERT_EQ(void_and_cluster(options, {.threads = GetParam()}), found->second)
+        << testing::PrintToString(options);
   }
 }
 
