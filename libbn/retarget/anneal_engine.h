@@ -26,7 +26,7 @@ struct RoundCounts {
 /// Swaps within reach that would raise the energy, by the size of the rise: class i holds rises of
 /// 2^i .. 2^(i+1) - 1, the last one all larger ones too.
 struct WorseningCounts {
-  int sweeps = 1 << 30;  ///< how many of a round's last sweeps are watched
+  int sweeps = 1 << 30;  ///< how many of the last sweeps are watched
   std::array<std::int64_t, kWorseningClasses> tried{};
   std::array<std::int64_t, kWorseningClasses> accepted{};
   std::int64_t within_reach = 0;  ///< proposals that the reach allows, worsening or not
@@ -39,10 +39,15 @@ class AnnealEngine {
  public:
   virtual ~AnnealEngine() = default;
 
-  /// `sweeps` sweeps at one temperature. Counts worsenings where asked; watched sweeps are slower, nothing
-  /// else changes.
-  virtual RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution& execution,
-                            WorseningCounts* worsenings = nullptr) = 0;
+  /// Sweeps first..end - 1 of a round, at one temperature. Counts worsenings where asked; watched sweeps are
+  /// slower, nothing else changes.
+  virtual RoundCounts sweeps(std::int64_t round, int first, int end, double temperature,
+                             const Execution& execution, WorseningCounts* worsenings = nullptr) = 0;
+  /// A whole round.
+  RoundCounts round(std::int64_t round, int count, double temperature, const Execution& execution,
+                    WorseningCounts* worsenings = nullptr) {
+    return sweeps(round, 0, count, temperature, execution, worsenings);
+  }
   /// The running energy: kept by adding changes, always equal to the recomputed one.
   virtual std::int64_t energy() const = 0;
   /// The displacement k of the seed at each position.

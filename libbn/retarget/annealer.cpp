@@ -176,8 +176,15 @@ struct Chain {
   std::int64_t best_energy = 0;
   WorseningCounts watched = {};
   bool watch = false;
+  std::int64_t target = 0;  ///< proposals at which the beat ends
+  // The round in hand: the sweeps made, what they did, and where they were made.
+  int sweep = 0;
+  RoundCounts counts = {};
+  bool quench = false;
+  double temperature = 0.0;
 
   bool done(std::int64_t budget) const { return proposals >= budget || cooling.frozen(); }
+  bool arrived(std::int64_t budget) const { return sweep == 0 && (proposals >= target || done(budget)); }
 };
 
 class Run {
@@ -217,12 +224,10 @@ class Run {
   }
 
   AnnealResult run() {
-    const auto start = Clock::now();
-    auto saved = start;
+    auto saved = Clock::now();
     double save_cost_s = 0.0;
     ProgressMeter progress(execution_, static_cast<std::uint64_t>(options_.proposals));
     std::uint64_t reported = 0;
-    trace_point(start);
     while (!done()) {
       if (execution_.stop.stop_requested()) {
         save();
@@ -237,7 +242,6 @@ class Run {
         saved = Clock::now();
       }
       beat();
-      trace_point(start);
       const auto made = static_cast<std::uint64_t>(std::min(chains_.front().proposals, options_.proposals));
       progress.advance(made - reported);
       reported = made;
@@ -246,13 +250,81 @@ class Run {
     return result();
   }
 
- private:
-  bool tempering() const { return options_.chains.coupling == ChainOptions::Coupling::tempering; }
   bool done() const {
     return instance_.displacements.empty() ||
            std::all_of(chains_.begin(), chains_.end(),
-                       [&](const Chain& c) { return c.done(options_.proposals); });
+                       [&](const Chain& c) { return c.sweep == 0 && c.done(options_.proposals); });
   }
+
+  /// To the end of the beat.
+  void beat() {
+    const auto start = Clock::now();
+    if (!in_beat_) begin_beat();
+    const Execution inside{.threads = chains_.size() == 1 ? execution_.threads : 1};
+    parallel_for({.threads = execution_.threads}, static_cast<std::int64_t>(chains_.size()),
+                 [&](std::int64_t c) {
+                   Chain& chain = chains_[static_cast<std::size_t>(c)];
+                   while (!chain.arrived(options_.proposals)) advance(chain, sweeps_, inside);
+                 });
+    seconds_ += seconds_since(start);
+    end_beat();
+  }
+
+  /// One sweep of each chain that has not come to the end of the beat, watched.
+  void sweep() {
+    const auto start = Clock::now();
+    if (!in_beat_) begin_beat();
+    bool arrived = true;
+    for (Chain& chain : chains_) {
+      if (chain.arrived(options_.proposals)) continue;
+      chain.watched = {.sweeps = 1};
+      chain.watch = true;
+      advance(chain, 1, execution_);
+      arrived = arrived && chain.arrived(options_.proposals);
+    }
+    seconds_ += seconds_since(start);
+    if (arrived) end_beat();
+  }
+
+  AnnealState state() const {
+    const Chain& chain = chains_.front();
+    AnnealState state{.proposals = chain.proposals + chain.counts.proposals,
+                      .accepted = chain.accepted + chain.counts.accepted,
+                      .seconds = seconds_,
+                      .temperature = chain.temperature,
+                      .energy = chain.engine->energy(),
+                      .best_energy = best_energy(),
+                      .worsening_tried = chain.watched.tried,
+                      .worsening_accepted = chain.watched.accepted,
+                      .done = done()};
+    // Until the first sweep, where it will be made.
+    if (state.proposals == 0 && !state.done) state.temperature = chain.cooling.temperature();
+    return state;
+  }
+
+  Grid<Offset> move() const { return instance_.moves_of(chains_.front().engine->displacements()); }
+
+  AnnealResult result() const {
+    const Chain* best = &chains_.front();
+    AnnealResult result;
+    for (const Chain& chain : chains_) {
+      if (chain.best_energy < best->best_energy) best = &chain;
+      result.proposals += chain.proposals;
+      result.accepted += chain.accepted;
+      result.frozen = result.frozen || chain.cooling.frozen();
+    }
+    result.tile.move = instance_.moves_of(best->engine->kept());
+    check_permutation(result.tile.move, instance_.options);
+    result.tile.start_energy = start_energy_;
+    result.tile.energy = best->best_energy;
+    result.tile.lower_bound = options_.lower_bound;
+    result.start_temperature = temperatures_.start;
+    result.end_temperature = temperatures_.end;
+    return result;
+  }
+
+ private:
+  bool tempering() const { return options_.chains.coupling == ChainOptions::Coupling::tempering; }
 
   /// Of chain c; chains of tempering hold the temperature of their place on the ladder.
   CoolingSchedule schedule(int c) const {
@@ -267,37 +339,48 @@ class Run {
            reproducible_exp(share * reproducible_log(temperatures_.start / temperatures_.end));
   }
 
-  void beat() {
+  void begin_beat() {
     for (Chain& chain : chains_) {
+      chain.target = std::min(options_.proposals, chain.proposals + beat_);
+      chain.watched = {.sweeps = 1};
       chain.watch = trace_ != nullptr && &chain == &chains_.front() &&
                     sweeps_done() - last_watched_ >= kSweepsPerWatchedOne;
     }
     if (chains_.front().watch) last_watched_ = sweeps_done();
-    const Execution inside{.threads = chains_.size() == 1 ? execution_.threads : 1};
-    parallel_for({.threads = execution_.threads}, static_cast<std::int64_t>(chains_.size()),
-                 [&](std::int64_t c) { advance(chains_[static_cast<std::size_t>(c)], inside); });
+    in_beat_ = true;
+  }
+
+  void end_beat() {
     if (tempering()) exchange();
     ++beats_;
+    in_beat_ = false;
+    trace_point();
   }
 
   std::int64_t sweeps_done() const { return chains_.front().round * sweeps_; }
 
-  void advance(Chain& chain, const Execution& inside) {
-    const std::int64_t target = std::min(options_.proposals, chain.proposals + beat_);
-    chain.watched = {.sweeps = 1};
-    while (chain.proposals < target && !chain.done(options_.proposals)) {
-      const bool quench = chain.proposals >= cooled_;
-      const double temperature = quench ? 0.0 : chain.cooling.temperature();
-      WorseningCounts* worsenings = std::exchange(chain.watch, false) ? &chain.watched : nullptr;
-      const RoundCounts counts = chain.engine->round(chain.round, sweeps_, temperature, inside, worsenings);
-      ++chain.round;
-      chain.proposals += counts.proposals;
-      chain.accepted += counts.accepted;
-      if (!quench) chain.cooling.advance(counts.proposals, counts.accepted, counts.changed);
-      if (chain.engine->energy() >= chain.best_energy) continue;
-      chain.best_energy = chain.engine->energy();
-      chain.engine->keep();
+  /// Up to `sweeps` sweeps, not beyond the round. Whole rounds cool, count and may be the best.
+  void advance(Chain& chain, int sweeps, const Execution& inside) {
+    if (chain.sweep == 0) {
+      chain.quench = chain.proposals >= cooled_;
+      chain.temperature = chain.quench ? 0.0 : chain.cooling.temperature();
     }
+    const int end = std::min(sweeps_, chain.sweep + sweeps);
+    WorseningCounts* worsenings = std::exchange(chain.watch, false) ? &chain.watched : nullptr;
+    chain.counts +=
+        chain.engine->sweeps(chain.round, chain.sweep, end, chain.temperature, inside, worsenings);
+    chain.sweep = end;
+    if (end < sweeps_) return;
+
+    const RoundCounts counts = std::exchange(chain.counts, {});
+    chain.sweep = 0;
+    ++chain.round;
+    chain.proposals += counts.proposals;
+    chain.accepted += counts.accepted;
+    if (!chain.quench) chain.cooling.advance(counts.proposals, counts.accepted, counts.changed);
+    if (chain.engine->energy() >= chain.best_energy) return;
+    chain.best_energy = chain.engine->energy();
+    chain.engine->keep();
   }
 
   /// Neighbours on the ladder exchange places with Metropolis' chance: even pairs in even beats, odd ones in
@@ -325,7 +408,7 @@ class Run {
     return best;
   }
 
-  void trace_point(Clock::time_point start) {
+  void trace_point() {
     if (trace_ == nullptr) return;
     const Chain& chain = chains_.front();
     const auto notch = static_cast<std::int64_t>(static_cast<double>(chain.proposals) /
@@ -338,7 +421,7 @@ class Run {
     traced_accepted_ = chain.accepted;
     trace_->add(
         {.proposals = chain.proposals,
-         .seconds = seconds_since(start),
+         .seconds = seconds_,
          .temperature = chain.proposals >= cooled_ ? 0.0 : chain.cooling.temperature(),
          .energy = chain.engine->energy(),
          .best_energy = best_energy(),
@@ -380,25 +463,6 @@ class Run {
     }
   }
 
-  AnnealResult result() const {
-    const Chain* best = &chains_.front();
-    AnnealResult result;
-    for (const Chain& chain : chains_) {
-      if (chain.best_energy < best->best_energy) best = &chain;
-      result.proposals += chain.proposals;
-      result.accepted += chain.accepted;
-      result.frozen = result.frozen || chain.cooling.frozen();
-    }
-    result.tile.move = instance_.moves_of(best->engine->kept());
-    check_permutation(result.tile.move, instance_.options);
-    result.tile.start_energy = start_energy_;
-    result.tile.energy = best->best_energy;
-    result.tile.lower_bound = options_.lower_bound;
-    result.start_temperature = temperatures_.start;
-    result.end_temperature = temperatures_.end;
-    return result;
-  }
-
   const AnnealOptions& options_;
   const Execution& execution_;
   AnnealTrace* trace_;
@@ -411,6 +475,8 @@ class Run {
   std::vector<Chain> chains_;
   std::int64_t start_energy_ = 0;
   std::int64_t beats_ = 0;
+  bool in_beat_ = false;
+  double seconds_ = 0.0;  ///< spent annealing
   std::int64_t last_watched_ = 0, last_notch_ = -1, traced_proposals_ = 0, traced_accepted_ = 0;
 };
 
@@ -433,6 +499,33 @@ AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& 
   thread_count(execution);
   return Run(problem, options, execution, trace).run();
 }
+
+/// The run, and what it refers to.
+struct Annealing::Held {
+  AnnealOptions options;
+  Execution execution;
+  Run run;
+  Held(const AnnealProblem& problem, const AnnealOptions& given, const Execution& how, AnnealTrace* trace)
+      : options(given), execution(how), run(problem, options, execution, trace) {}
+};
+
+Annealing::Annealing(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution,
+                     AnnealTrace* trace) {
+  check(options);
+  thread_count(execution);
+  held_ = std::make_unique<Held>(problem, options, execution, trace);
+}
+Annealing::~Annealing() = default;
+
+void Annealing::beat() {
+  if (!held_->run.done()) held_->run.beat();
+}
+void Annealing::sweep() {
+  if (!held_->run.done()) held_->run.sweep();
+}
+AnnealState Annealing::state() const { return held_->run.state(); }
+Grid<Offset> Annealing::move() const { return held_->run.move(); }
+AnnealResult Annealing::result() const { return held_->run.result(); }
 
 std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const AnnealOptions& options,
                                             int range, const Execution& execution) {

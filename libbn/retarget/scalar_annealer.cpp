@@ -125,14 +125,14 @@ class ScalarEngine final : public AnnealEngine {
     place(Grid<Offset>(instance.size));
   }
 
-  RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution&,
-                    WorseningCounts* worsenings) override {
+  RoundCounts sweeps(std::int64_t round, int first, int end, double temperature, const Execution&,
+                     WorseningCounts* worsenings) override {
     RoundCounts counts;
     if (instance_.displacements.empty()) return counts;
     const float t = single_temperature(temperature);
     const auto pixels = static_cast<std::uint32_t>(instance_.size.area());
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
-      const bool watched = worsenings != nullptr && sweep >= sweeps - worsenings->sweeps;
+    for (int sweep = first; sweep < end; ++sweep) {
+      const bool watched = worsenings != nullptr && sweep >= end - worsenings->sweeps;
       // A sweep proposes half as many swaps as there are pixels, like a sweep of the other engine.
       const std::uint32_t proposals = std::max(1u, pixels / 2);
       for (std::uint32_t i = 0; i < proposals; ++i) {

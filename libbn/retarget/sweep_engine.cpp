@@ -132,8 +132,8 @@ class SweepEngine final : public AnnealEngine {
     place(Grid<Offset>(instance.size));
   }
 
-  RoundCounts round(std::int64_t round, int sweeps, double temperature, const Execution& execution,
-                    WorseningCounts* worsenings) override {
+  RoundCounts sweeps(std::int64_t round, int first, int end, double temperature, const Execution& execution,
+                     WorseningCounts* worsenings) override {
     RoundCounts counts;
     if (instance_.displacements.empty()) return counts;
     const float t = single_temperature(temperature);
@@ -142,12 +142,12 @@ class SweepEngine final : public AnnealEngine {
     std::vector<WorseningCounts> watched(bands.size());
     // Waking threads costs some ten microseconds.
     constexpr std::int64_t kWorthWaking = 200'000;
-    const bool short_round = instance_.size.area() / 2 * sweeps < kWorthWaking;
+    const bool short_round = instance_.size.area() / 2 * (end - first) < kWorthWaking;
     parallel_for(short_round ? Execution{.threads = 1} : execution, static_cast<std::int64_t>(bands.size()),
                  [&](std::int64_t b) {
-                   for (int i = 0; i < sweeps; ++i) {
+                   for (int i = first; i < end; ++i) {
                      const Sweep sweep = sweep_of(instance_, seed_, chain_, round, i, bands[b], t);
-                     const bool watch = worsenings != nullptr && i >= sweeps - worsenings->sweeps;
+                     const bool watch = worsenings != nullptr && i >= end - worsenings->sweeps;
                      if (watch || kernel_ == nullptr) {
                        sweep_plainly<metric>(state_, instance_, sweep, bands[b], results[b],
                                              watch ? &watched[b] : nullptr);

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -169,7 +170,7 @@ struct ChainOptions {
 /// One sample of a running annealing.
 struct TracePoint {
   std::int64_t proposals = 0;  ///< made so far by the traced chain
-  double seconds = 0.0;        ///< of wall time since the start
+  double seconds = 0.0;        ///< of wall time spent annealing
   double temperature = 0.0;
   std::int64_t energy = 0;       ///< of the traced chain, now
   std::int64_t best_energy = 0;  ///< of any chain, so far
@@ -206,8 +207,8 @@ struct Checkpointing {
   /// Called with an opaque checkpoint at most every `interval_s`, and once when a stop was requested;
   /// from the calling thread. Write it crash-safely (bn/texture.h, write_text_file).
   std::function<void(std::string_view checkpoint)> save = {};
-  /// Seconds between two, 0..3600; stretched up to 28 s where saving takes longer than a fiftieth of it. 0 saves
-  /// before every beat of the run, whatever it costs.
+  /// Seconds between two, 0..3600; stretched up to 28 s where saving takes longer than a fiftieth of it. 0
+  /// saves before every beat of the run, whatever it costs.
   double interval_s = 10.0;
   /// A checkpoint to go on from; empty to start afresh.
   std::string resume = {};
@@ -251,6 +252,50 @@ struct AnnealResult {
 /// 20 bytes a pixel and chain for 8 bit levels, 40 for wider ones.
 AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& options,
                              const Execution& execution = {}, AnnealTrace* trace = nullptr);
+
+/// Where an annealing stands. Counts, temperature and energy are of the traced chain, the first.
+struct AnnealState {
+  std::int64_t proposals = 0;
+  std::int64_t accepted = 0;
+  double seconds = 0.0;      ///< of wall time spent annealing
+  double temperature = 0.0;  ///< of the last sweep; before the first, of that one
+  std::int64_t energy = 0;   ///< of move()
+  std::int64_t best_energy = 0;
+  /// Worsening swaps within reach in the last watched sweep, as in TracePoint.
+  std::array<std::int64_t, kWorseningClasses> worsening_tried{};
+  std::array<std::int64_t, kWorseningClasses> worsening_accepted{};
+  bool done = false;
+};
+
+/// anneal_retarget() in parts, for those who watch and steer. Beats and sweeps in any mixture until
+/// state().done make the bytes that anneal_retarget() makes in one go, at its speed where they are beats.
+///
+/// options.checkpoint.resume is honoured, `save` is not called. execution.progress is not called,
+/// execution.stop not looked at: who wants to stop makes no further call. Threads: one caller at a time; no
+/// locks inside. Errors: the constructor's are those of anneal_retarget(). `trace` must outlive the object.
+class Annealing {
+ public:
+  Annealing(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution = {},
+            AnnealTrace* trace = nullptr);
+  ~Annealing();
+  Annealing(const Annealing&) = delete;
+  Annealing& operator=(const Annealing&) = delete;
+
+  /// Goes on by a 512th of the budget, at most 1e8 proposals: a tenth of a second at common speeds. Nothing
+  /// once done.
+  void beat();
+  /// Goes on by one sweep, about half as many proposals as pixels, of each chain (some may wait for others).
+  /// It is watched, so state() has its worsenings. Nothing once done.
+  void sweep();
+
+  AnnealState state() const;
+  Grid<Offset> move() const;    ///< the placement of the traced chain, now; a pass over the pixels
+  AnnealResult result() const;  ///< with the best placement after a whole round, so far; likewise
+
+ private:
+  struct Held;
+  std::unique_ptr<Held> held_;
+};
 
 /// The variants of one motion set: index (m.y + range) * (2 range + 1) + m.x + range, range 0..8; motion and
 /// chains of the arguments are ignored. Every tile equals anneal_retarget() with that motion.
