@@ -1,0 +1,81 @@
+// The inspector: its views, and what they share.
+//
+//   Surface (a window, or memory) --input--> App::frame() --ImGui draw lists--> Surface
+//
+// One thread draws; computations run in tasks of the views and never block it.
+
+#pragma once
+
+#include <deque>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bn/core.h"
+#include "ui/bake_view.h"
+#include "ui/compare_view.h"
+#include "ui/parameters.h"
+#include "ui/run_view.h"
+#include "ui/texture_view.h"
+
+namespace bn::ui {
+
+enum class Tab { run, compare, texture, bake };
+
+class App {
+ public:
+  /// `session`: where settings are kept between starts; empty: nowhere. An ImGui context must be current.
+  explicit App(std::filesystem::path session = {});
+
+  /// Everything between ImGui::NewFrame() and ImGui::Render().
+  void frame();
+  /// Something moves by itself: draw again without waiting for input.
+  bool busy() const;
+  /// Writes the session file. Errors are told on the screen, if that is still there.
+  void close();
+
+  // For views.
+  /// A texture goes to the Texture view, a recipe (.toml) to the Bake view; `folder` of slices too.
+  void open(const std::filesystem::path& path);
+  void show(Tab tab) { wanted_tab_ = tab; }
+  /// Puts an error into the panel at the bottom. Call it from the window's thread.
+  void report(const Error& error);
+  /// The same for the exception in flight, whatever it is; inside a catch block. Cancelled ones are not told.
+  void report_in_flight();
+  /// A line at the bottom that says what was done.
+  void say(std::string text) { status_ = std::move(text); }
+
+  RunView run;
+  CompareView compare;
+  TextureView texture;
+  BakeView bake;
+
+  // For the surface and the script.
+  bool dark = true;
+  double scale = 1.0;  ///< of everything, chosen by the user, over the display's own
+  bool quit = false;
+  std::filesystem::path screenshot_path;  ///< set: the main loop writes the frame there, and clears it
+  Tab tab() const { return tab_; }
+  const std::deque<std::string>& errors() const { return errors_; }
+
+ private:
+  void parameters(Parameters& p);
+  Settings settings();
+  void restore(Settings settings);
+  void draw_menu();
+  void draw_tabs();
+  void draw_status();
+  void handle_shortcuts();
+  void undo();
+  void redo();
+
+  std::filesystem::path session_;
+  UndoHistory history_;
+  Tab tab_ = Tab::run;
+  std::optional<Tab> wanted_tab_ = Tab::run;  ///< until the tab bar shows it
+  std::deque<std::string> errors_;
+  std::string status_;
+};
+
+}  // namespace bn::ui

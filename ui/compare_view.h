@@ -1,0 +1,19 @@
+// The Compare view: several runs side by side.
+
+#pragma once
+
+namespace bn::ui {
+
+class App;
+class Parameters;
+
+class CompareView {
+ public:
+  void draw(App& app);
+  /// Every value that the user can change here; see ui/parameters.h.
+  void parameters(Parameters& p);
+  /// Whether something is going on, so that the window must be drawn again without input.
+  bool busy() const { return false; }
+};
+
+}  // namespace bn::ui

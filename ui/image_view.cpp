@@ -1,0 +1,231 @@
+#include "ui/image_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "bn/spectrum.h"
+#include "ui/parameters.h"
+#include "ui/widgets.h"
+
+namespace bn::ui {
+namespace {
+
+constexpr double kMaxZoom = 256.0;
+constexpr int kHistogramBars = 128;
+
+std::string number(float value) {
+  return value == std::floor(value) && std::abs(value) < 1e7f ? fmt::format("{:.0f}", value)
+                                                              : fmt::format("{:.5g}", value);
+}
+
+}  // namespace
+
+void ViewLink::parameters(Parameters& p) {
+  p("view.nearest", nearest);
+  p("view.tiled", tiled);
+}
+
+void draw_link_controls(ViewLink& link) {
+  if (button("Fit", true, "The whole picture (F, or a double click on it)"))
+    link.zoom = 0.0, link.centre_x = link.centre_y = 0.5;
+  ImGui::SameLine();
+  if (button("1:1", true, "One texel to a pixel of the screen (1)")) link.zoom = 1.0;
+  ImGui::SameLine();
+  bool linear = !link.nearest;
+  if (checkbox("Linear", linear, "Enlarge smoothly; off: every texel is a square")) link.nearest = !linear;
+  ImGui::SameLine();
+  checkbox("3×3", link.tiled, "Show repetitions on all sides: do seams show?");
+}
+
+void ImageView::clear() {
+  picture_ = {};
+  texture_.reset();
+}
+
+void ImageView::set(Picture picture) {
+  const bool same_range =
+      picture.size == picture_.size && picture.low == picture_.low && picture.high == picture_.high;
+  picture_ = std::move(picture);
+  if (!same_range) {
+    low_ = picture_.low;
+    high_ = picture_.high;
+  }
+  histogram_.clear();
+  stale_ = true;
+}
+
+void ImageView::show_values() {
+  stale_ = false;
+  Extent shown = picture_.size;
+  shown.width = std::min(shown.width, GlTexture::kMaxSide);
+  shown.height = std::min(shown.height, GlTexture::kMaxSide);
+  std::vector<std::uint32_t> texels(static_cast<std::size_t>(shown.area()));
+  const float scale = high_ > low_ ? 255.0f / (high_ - low_) : 0.0f;
+  const auto level = [&](float value) {
+    return static_cast<std::uint32_t>(std::clamp((value - low_) * scale + 0.5f, 0.0f, 255.0f));
+  };
+  const int channels = picture_.channels;
+  for (int y = 0; y < shown.height; ++y) {
+    for (int x = 0; x < shown.width; ++x) {
+      const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.size.width) +
+                               static_cast<std::size_t>(x);
+      const std::size_t to =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(shown.width) + static_cast<std::size_t>(x);
+      if (!picture_.colours.empty()) {
+        texels[to] = picture_.colours[from];
+        continue;
+      }
+      const float* v = &picture_.values[from * static_cast<std::size_t>(channels)];
+      const std::uint32_t r = level(v[0]);
+      texels[to] = channels == 1   ? IM_COL32(r, r, r, 255)
+                   : channels == 2 ? IM_COL32(r, level(v[1]), 0, 255)
+                                   : IM_COL32(r, level(v[1]), level(v[2]), 255);
+    }
+  }
+  texture_.upload(shown, texels);
+}
+
+std::string ImageView::describe(int x, int y) const {
+  if (picture_.describe) return picture_.describe(x, y);
+  std::string text;
+  const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.size.width) +
+                          static_cast<std::size_t>(x)) *
+                         static_cast<std::size_t>(picture_.channels);
+  for (int c = 0; c < picture_.channels && at < picture_.values.size(); ++c) {
+    text += (c > 0 ? ", " : "") + number(picture_.values[at + static_cast<std::size_t>(c)]);
+  }
+  return text;
+}
+
+void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
+  ImGui::PushID(name);
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const ImVec2 area{std::max(size.x, em(4)), std::max(size.y - line, em(4))};
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("picture", area);
+  items::record(name, empty() ? "empty" : fmt::format("{} × {}", picture_.size.width, picture_.size.height));
+  const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 far_corner{corner.x + area.x, corner.y + area.y};
+  list.AddRectFilled(corner, far_corner, palette().background, ImGui::GetStyle().FrameRounding);
+
+  std::string below;
+  if (!empty()) {
+    if (stale_) show_values();
+    texture_.set_nearest(link.nearest);
+    const double w = picture_.size.width, h = picture_.size.height;
+    const double tiles = link.tiled ? 3.0 : 1.0;
+    const double fit = std::min(area.x / (w * tiles), area.y / (h * tiles));
+    const ImGuiIO& io = ImGui::GetIO();
+    double zoom = link.zoom > 0.0 ? link.zoom : fit;
+    const double middle_x = corner.x + 0.5 * area.x, middle_y = corner.y + 0.5 * area.y;
+    const auto texel_at = [&](ImVec2 p) {
+      return std::pair{link.centre_x * w + (p.x - middle_x) / zoom,
+                       link.centre_y * h + (p.y - middle_y) / zoom};
+    };
+    if (held && (io.MouseDelta.x != 0 || io.MouseDelta.y != 0)) {
+      link.zoom = zoom;
+      link.centre_x -= io.MouseDelta.x / (zoom * w);
+      link.centre_y -= io.MouseDelta.y / (zoom * h);
+    }
+    if (hovered && io.MouseWheel != 0) {
+      const auto [x, y] = texel_at(io.MousePos);
+      zoom = std::clamp(zoom * std::pow(1.25, static_cast<double>(io.MouseWheel)), std::min(fit, 1.0) / 8.0,
+                        kMaxZoom);
+      link.zoom = zoom;
+      link.centre_x = (x - (io.MousePos.x - middle_x) / zoom) / w;
+      link.centre_y = (y - (io.MousePos.y - middle_y) / zoom) / h;
+    }
+    if (hovered && ImGui::IsMouseDoubleClicked(0)) link.zoom = 0.0, link.centre_x = link.centre_y = 0.5;
+    link.centre_x = std::clamp(link.centre_x, -1.0, 2.0);
+    link.centre_y = std::clamp(link.centre_y, -1.0, 2.0);
+
+    const auto screen = [&](double x, double y) {
+      return ImVec2(static_cast<float>(middle_x + (x - link.centre_x * w) * zoom),
+                    static_cast<float>(middle_y + (y - link.centre_y * h) * zoom));
+    };
+    const double first = link.tiled ? -1.0 : 0.0, last = link.tiled ? 2.0 : 1.0;
+    list.PushClipRect(corner, far_corner, true);
+    list.AddImage(texture_.id(), screen(first * w, first * h), screen(last * w, last * h),
+                  {static_cast<float>(first), static_cast<float>(first)},
+                  {static_cast<float>(last), static_cast<float>(last)});
+    if (hovered) {
+      const auto [x, y] = texel_at(io.MousePos);
+      const bool inside = x >= first * w && x < last * w && y >= first * h && y < last * h;
+      link.cursor =
+          inside
+              ? std::optional<Offset>({wrap(static_cast<std::int64_t>(std::floor(x)), picture_.size.width),
+                                       wrap(static_cast<std::int64_t>(std::floor(y)), picture_.size.height)})
+              : std::nullopt;
+    }
+    const auto cursor = link.cursor;
+    if (cursor && cursor->x < picture_.size.width && cursor->y < picture_.size.height) {
+      if (zoom >= 3) {
+        list.AddRect(screen(cursor->x, cursor->y), screen(cursor->x + 1, cursor->y + 1), palette().accent, 0,
+                     0, 2.0f);
+      }
+      below = fmt::format("({}, {})  {}", cursor->x, cursor->y, describe(cursor->x, cursor->y));
+    } else {
+      below = fmt::format("{} × {}", picture_.size.width, picture_.size.height);
+    }
+    list.PopClipRect();
+  }
+  list.AddRect(corner, far_corner, palette().line, ImGui::GetStyle().FrameRounding);
+  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+  ImGui::TextUnformatted(below.c_str());
+  ImGui::PopStyleColor();
+  ImGui::PopID();
+}
+
+void ImageView::draw_range(const char* name, float height) {
+  if (empty() || !picture_.colours.empty() || picture_.values.empty()) return;
+  if (histogram_.empty()) {
+    const std::vector<double> values(picture_.values.begin(), picture_.values.end());
+    const float high = picture_.high > picture_.low ? picture_.high : picture_.low + 1.0f;
+    histogram_ =
+        histogram(values, static_cast<double>(picture_.low), static_cast<double>(high), kHistogramBars);
+  }
+  ImGui::PushID(name);
+  const float width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  ImGui::InvisibleButton("range", {width, height});
+  items::record(name, fmt::format("{}..{}", number(low_), number(high_)));
+  const float span = picture_.high > picture_.low ? picture_.high - picture_.low : 1.0f;
+  const auto place = [&](float value) { return corner.x + (value - picture_.low) / span * width; };
+  if (ImGui::IsItemActive()) {
+    // The nearer handle follows.
+    const float value = std::clamp(picture_.low + (ImGui::GetIO().MousePos.x - corner.x) / width * span,
+                                   picture_.low, picture_.high);
+    float& handle = std::abs(value - low_) < std::abs(value - high_) ? low_ : high_;
+    if (handle != value) {
+      handle = value;
+      stale_ = true;
+    }
+  }
+  if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
+    low_ = picture_.low;
+    high_ = picture_.high;
+    stale_ = true;
+  }
+  tooltip("What is shown as black and as white: drag the handles; a double click shows everything.");
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(corner, {corner.x + width, corner.y + height}, palette().background);
+  const auto most = *std::max_element(histogram_.begin(), histogram_.end());
+  for (int i = 0; i < kHistogramBars && most > 0; ++i) {
+    const float share =
+        static_cast<float>(histogram_[static_cast<std::size_t>(i)]) / static_cast<float>(most);
+    const float x0 = corner.x + width * static_cast<float>(i) / kHistogramBars;
+    const float x1 = corner.x + width * static_cast<float>(i + 1) / kHistogramBars;
+    list.AddRectFilled({x0, corner.y + height * (1 - 0.9f * share)}, {x1, corner.y + height}, palette().line);
+  }
+  for (const float handle : {low_, high_}) {
+    const float x = std::clamp(place(handle), corner.x + 1, corner.x + width - 1);
+    list.AddLine({x, corner.y}, {x, corner.y + height}, palette().accent, 2.0f);
+  }
+  ImGui::PopID();
+}
+
+}  // namespace bn::ui

@@ -1,0 +1,249 @@
+#include "ui/widgets.h"
+
+#include <fmt/format.h>
+#include <imgui_internal.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bn::ui {
+namespace {
+
+float label_width_em = 8.0f;
+
+const char* end_of(const char* label) { return ImGui::FindRenderedTextEnd(label); }
+
+/// Draws the label and leaves the cursor where the widget begins, as wide as the room that is left.
+void begin_row(const char* label) {
+  ImGui::PushID(label);
+  ImGui::BeginGroup();
+  if (end_of(label) != label) {
+    const float start = ImGui::GetCursorPosX();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+    ImGui::TextUnformatted(label, end_of(label));
+    ImGui::PopStyleColor();
+    ImGui::SameLine(label_width_em > 0 ? start - ImGui::GetStyle().WindowPadding.x * 0 + em(label_width_em)
+                                       : 0.0f);
+  }
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void end_row(std::string_view hint) {
+  ImGui::EndGroup();
+  tooltip(hint);
+  ImGui::PopID();
+}
+
+bool recorded_button(const char* label, bool enabled, std::string_view hint) {
+  ImGui::BeginDisabled(!enabled);
+  const bool clicked = ImGui::Button(label);
+  items::record(label, {}, enabled);
+  ImGui::EndDisabled();
+  tooltip(hint);
+  return clicked && enabled;
+}
+
+}  // namespace
+
+void set_label_width(float ems) { label_width_em = ems; }
+
+void tooltip(std::string_view hint) {
+  if (hint.empty() || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(em(26));
+  ImGui::TextUnformatted(hint.data(), hint.data() + hint.size());
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool button(const char* label, bool enabled, std::string_view hint) {
+  return recorded_button(label, enabled, hint);
+}
+
+bool main_button(const char* label, bool enabled, std::string_view hint) {
+  const ImVec4 accent = ImGui::ColorConvertU32ToFloat4(palette().accent);
+  const auto shade = [&](float share) {
+    return ImVec4(accent.x * share, accent.y * share, accent.z * share, 1.0f);
+  };
+  ImGui::PushStyleColor(ImGuiCol_Button, shade(is_dark() ? 0.72f : 1.0f));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(is_dark() ? 0.82f : 0.9f));
+  ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(is_dark() ? 0.6f : 0.8f));
+  ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
+  const bool clicked = recorded_button(label, enabled, hint);
+  ImGui::PopStyleColor(4);
+  return clicked;
+}
+
+bool checkbox(const char* label, bool& value, std::string_view hint) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  items::record(label, value ? "on" : "off");
+  tooltip(hint);
+  return changed;
+}
+
+bool choice(const char* label, std::span<const char* const> words, int& index, std::string_view hint) {
+  begin_row(label);
+  bool changed = false;
+  const std::string name(label, end_of(label));
+  for (int i = 0; i < static_cast<int>(words.size()); ++i) {
+    if (i > 0) ImGui::SameLine(0, 1);
+    const bool chosen = i == index;
+    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    if (!chosen) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+    if (ImGui::Button(words[i]) && !chosen) {
+      index = i;
+      changed = true;
+    }
+    ImGui::PopStyleColor();
+    items::record(name.empty() ? std::string(words[i]) : fmt::format("{}: {}", name, words[i]),
+                  chosen ? "on" : "off");
+  }
+  end_row(hint);
+  return changed;
+}
+
+bool combo(const char* label, std::span<const std::string> words, int& index, std::string_view hint) {
+  begin_row(label);
+  bool changed = false;
+  const bool known = index >= 0 && index < static_cast<int>(words.size());
+  const std::string shown = known ? words[static_cast<std::size_t>(index)] : "";
+  const bool open = ImGui::BeginCombo("##value", shown.c_str(), ImGuiComboFlags_HeightLarge);
+  if (!open) items::record(label, shown);
+  if (open) {
+    for (int i = 0; i < static_cast<int>(words.size()); ++i) {
+      if (selectable(words[static_cast<std::size_t>(i)].c_str(), i == index) && i != index) {
+        index = i;
+        changed = true;
+      }
+    }
+    ImGui::EndCombo();
+  }
+  end_row(hint);
+  return changed;
+}
+
+bool slider(const char* label, int& value, int low, int high, std::string_view hint) {
+  begin_row(label);
+  const bool changed = ImGui::SliderInt("##value", &value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+  items::record(label, fmt::format("{}", value));
+  end_row(hint);
+  return changed;
+}
+
+bool slider(const char* label, double& value, double low, double high, const char* format, bool logarithmic,
+            std::string_view hint) {
+  begin_row(label);
+  const auto flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool changed =
+      ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format, flags);
+  if (!std::isfinite(value)) value = low;
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  items::record(label, text);
+  end_row(hint);
+  return changed;
+}
+
+bool field(const char* label, std::int64_t& value, std::int64_t low, std::int64_t high,
+           std::string_view hint) {
+  begin_row(label);
+  ImGui::InputScalar("##value", ImGuiDataType_S64, &value);
+  items::record(label, fmt::format("{}", value));
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  if (!ImGui::IsItemActive()) value = std::clamp(value, low, high);
+  end_row(hint);
+  return done;
+}
+
+bool field(const char* label, double& value, double low, double high, const char* format,
+           std::string_view hint) {
+  begin_row(label);
+  ImGui::InputDouble("##value", &value, 0, 0, format);
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  items::record(label, text);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  if (!ImGui::IsItemActive()) value = std::isfinite(value) ? std::clamp(value, low, high) : low;
+  end_row(hint);
+  return done;
+}
+
+bool field(const char* label, std::string& value, std::string_view hint) {
+  begin_row(label);
+  ImGui::InputText("##value", &value);
+  items::record(label, value);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  end_row(hint);
+  return done;
+}
+
+bool selectable(const char* label, bool selected, bool enabled) {
+  const bool clicked =
+      ImGui::Selectable(label, selected, enabled ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled);
+  items::record(label, selected ? "on" : "off", enabled);
+  return clicked;
+}
+
+bool menu_item(const char* label, const char* keys, bool selected, bool enabled) {
+  const bool clicked = ImGui::MenuItem(label, keys, selected, enabled);
+  items::record(label, selected ? "on" : "off", enabled);
+  return clicked;
+}
+
+bool begin_tab(const char* label, bool choose) {
+  const bool open = ImGui::BeginTabItem(label, nullptr, choose ? ImGuiTabItemFlags_SetSelected : 0);
+  items::record(label, open ? "on" : "off");
+  return open;
+}
+
+bool begin_menu(const char* label) {
+  const bool open = ImGui::BeginMenu(label);
+  if (!open) items::record(label);
+  return open;
+}
+
+void value(const char* label, std::string_view text, std::string_view hint) {
+  value(label, text, palette().text, hint);
+}
+
+void value(const char* label, std::string_view text, ImU32 colour, std::string_view hint) {
+  begin_row(label);
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+  items::record(label, text);
+  end_row(hint);
+}
+
+void heading(const char* text) {
+  if (ImGui::GetCursorPosY() > em(2)) ImGui::Dummy({0, em(0.2f)});
+  ImGui::PushFont(heading_font());
+  ImGui::TextUnformatted(text);
+  ImGui::PopFont();
+}
+
+void note(std::string_view text) {
+  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void progress_bar(const char* label, double share, std::string_view text) {
+  ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, 0}, std::string(text).c_str());
+  items::record(label, text);
+}
+
+bool begin_panel(const char* name, ImVec2 size) {
+  return ImGui::BeginChild(name, size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);
+}
+
+void end_panel() { ImGui::EndChild(); }
+
+}  // namespace bn::ui
