@@ -1,5 +1,6 @@
-// One channel as integer levels. Energies are sums of level differences, so they are exact integers
-// whatever the file held; for float samples the distance to the nearest level is stated.
+// One channel as numbers: as it is stored, and as integer levels. Energies are sums of level differences, so
+// they are exact integers whatever the file held; for float samples the distance to the nearest level is
+// stated.
 
 #include <fmt/format.h>
 
@@ -97,14 +98,53 @@ Levels float_levels(const Image& image, int channel) {
   return levels;
 }
 
-}  // namespace
-
-Levels levels_of_channel(const Image& image, int channel) {
-  texture::check_image(image, "levels_of_channel");
+void check_channel(const Image& image, int channel, std::string_view where) {
+  texture::check_image(image, where);
   if (channel < 0 || channel >= image.channels) {
     fail_input("channel", fmt::format("the image has no channel {}", channel),
                fmt::format("0..{}", image.channels - 1));
   }
+}
+
+template <class Sample>
+std::vector<double> doubles_of(const Image& image, int channel) {
+  const std::vector<Sample> samples = samples_of<Sample>(image, channel);
+  return {samples.begin(), samples.end()};
+}
+
+}  // namespace
+
+ChannelSamples samples_of_channel(const Image& image, int channel) {
+  check_channel(image, channel, "samples_of_channel");
+  switch (image.type) {
+    case SampleType::u8:
+      return {doubles_of<std::uint8_t>(image, channel), 0.0, 256.0};
+    case SampleType::u16:
+      return {doubles_of<std::uint16_t>(image, channel), 0.0, 65536.0};
+    case SampleType::f32:
+      break;
+  }
+  ChannelSamples samples{doubles_of<float>(image, channel)};
+  const auto [least, greatest] = std::minmax_element(samples.value.begin(), samples.value.end());
+  if (*least < 0.0 || *greatest > 1.0) {
+    samples.low = *least;
+    samples.high = *greatest;
+  }
+  return samples;
+}
+
+void append_samples(ChannelSamples& stack, const ChannelSamples& next) {
+  if (stack.value.empty()) {
+    stack = next;
+    return;
+  }
+  stack.value.insert(stack.value.end(), next.value.begin(), next.value.end());
+  stack.low = std::min(stack.low, next.low);
+  stack.high = std::max(stack.high, next.high);
+}
+
+Levels levels_of_channel(const Image& image, int channel) {
+  check_channel(image, channel, "levels_of_channel");
   switch (image.type) {
     case SampleType::u8:
       return integer_levels<std::uint8_t>(image, channel);

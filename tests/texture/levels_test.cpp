@@ -22,6 +22,31 @@ TEST(Levels, IntegersAreTakenAsTheyAre) {
   }
 }
 
+TEST(Samples, AreAsStoredWithTheRangeOfAnEvenSpread) {
+  const Image u16 = random_image({9, 5}, 3, SampleType::u16);
+  const ChannelSamples blue = samples_of_channel(u16, 2);
+  ASSERT_EQ(blue.value.size(), 45u);
+  for (std::size_t i = 0; i < 45; ++i) EXPECT_EQ(blue.value[i], samples_of<std::uint16_t>(u16)[3 * i + 2]);
+  EXPECT_EQ(blue.high, 65536.0);
+  EXPECT_EQ(samples_of_channel(random_image({9, 5}, 1, SampleType::u8), 0).high, 256.0);
+
+  const auto of = [](std::vector<float> samples) {
+    return samples_of_channel(image_of<float>({3, 1}, 1, SampleType::f32, samples), 0);
+  };
+  EXPECT_EQ(of({0.25f, 0.5f, 0.75f}).low, 0.0);
+  EXPECT_EQ(of({0.25f, 0.5f, 0.75f}).high, 1.0);
+  EXPECT_EQ(of({-1.0f, 0.5f, 0.75f}).low, -1.0);
+  EXPECT_EQ(of({-1.0f, 0.5f, 0.75f}).high, 0.75);
+  EXPECT_TRUE(std::isnan(of({0.5f, std::nanf(""), 0.75f}).value[1]));
+  ChannelSamples stack = of({0.25f, 0.5f, 0.75f});
+  append_samples(stack, of({-1.0f, 0.5f, 2.0f}));
+  EXPECT_EQ(stack.value, (std::vector<double>{0.25, 0.5, 0.75, -1.0, 0.5, 2.0}));
+  EXPECT_EQ(stack.low, -1.0);
+  EXPECT_EQ(stack.high, 2.0);
+  EXPECT_THROW(samples_of_channel(u16, 3), Error);
+  EXPECT_THROW(samples_of_channel(u16, -1), Error);
+}
+
 TEST(Levels, FloatsSpanTheirRangeWithTheStatedError) {
   const std::vector<float> samples = {-2.5f, 7.25f, 0.0f, 1e-3f, 6.999f, 3.14159f};
   const Levels levels = levels_of_channel(image_of<float>({3, 2}, 1, SampleType::f32, samples), 0);

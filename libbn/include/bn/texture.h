@@ -140,6 +140,19 @@ Image make_atlas(const std::vector<Image>& tiles, int columns);
 /// atlas is no multiple of the tile, or has no such tile).
 Image atlas_tile(const Image& atlas, Extent tile_size, int index);
 
+/// One channel as it is stored, for analysis.
+struct ChannelSamples {
+  std::vector<double> value;
+  /// What an even spread of samples covers: 8bit 0..256, 16bit 0..65536, float 0..1, or least..greatest sample
+  /// where floats leave 0..1.
+  double low = 0.0, high = 1.0;
+};
+
+/// The samples of one channel; NaN and infinity are kept. Errors: invalid_input (no such channel).
+ChannelSamples samples_of_channel(const Image& image, int channel);
+/// Puts `next` behind what `stack` holds, as the next slice of a volume; the range covers both.
+void append_samples(ChannelSamples& stack, const ChannelSamples& next);
+
 /// One channel as integer levels, the unit in which energies are stated.
 struct Levels {
   Grid<std::int32_t> value;  ///< 8bit 0..255, 16bit 0..65535, float 0..65535 over [minimum, maximum]
