@@ -27,26 +27,15 @@ struct Settings {
   bool json = false;
 };
 
-/// One channel of an image, or of a stack of them, and the range that its histogram covers.
-struct Samples {
-  std::vector<double> values;
+/// One channel of an image, or of a stack of them.
+struct Texture {
+  ChannelSamples samples;
   Shape shape;
-  double low = 0.0, high = 1.0;
 };
 
-template <class T>
-void append_channel(const Image& image, int channel, std::vector<double>& values) {
-  const auto pixels = static_cast<std::size_t>(image.size.area());
-  for (std::size_t i = 0; i < pixels; ++i) {
-    T sample;
-    const std::size_t at = i * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(channel);
-    std::memcpy(&sample, image.samples.data() + at * sizeof(T), sizeof(T));
-    values.push_back(static_cast<double>(sample));
-  }
-}
-
 /// Reads `path` and appends its channel as the next slice.
-void append_slice(const std::filesystem::path& path, int channel, const Execution& execution, Samples& samples) {
+void append_slice(const std::filesystem::path& path, int channel, const Execution& execution,
+                  Texture& texture) {
   const Image image = read_image(path, execution).image;
   const auto fail = [&](std::string what, std::string limit, std::string remedy) {
     throw Error({.code = ErrorCode::invalid_input,
@@ -59,31 +48,15 @@ void append_slice(const std::filesystem::path& path, int channel, const Executio
     fail(fmt::format("there is no channel {}", channel), fmt::format("0..{}", image.channels - 1), "");
   }
   const Shape slice{image.size.width, image.size.height};
-  if (samples.values.empty()) {
-    samples.shape = slice;
-  } else if (Shape{samples.shape.width, samples.shape.height} == slice) {
-    ++samples.shape.depth;
+  if (texture.samples.value.empty()) {
+    texture.shape = slice;
+  } else if (Shape{texture.shape.width, texture.shape.height} == slice) {
+    ++texture.shape.depth;
   } else {
     fail(fmt::format("a slice of {} x {}", slice.width, slice.height),
-         fmt::format("{} x {}, as the first", samples.shape.width, samples.shape.height), "");
+         fmt::format("{} x {}, as the first", texture.shape.width, texture.shape.height), "");
   }
-  switch (image.type) {
-    case SampleType::u8:
-      samples.high = 256.0;
-      return append_channel<std::uint8_t>(image, channel, samples.values);
-    case SampleType::u16:
-      samples.high = 65536.0;
-      return append_channel<std::uint16_t>(image, channel, samples.values);
-    case SampleType::f32:
-      break;
-  }
-  append_channel<float>(image, channel, samples.values);
-  // Values that are no fractions of one: the histogram covers those that occur.
-  const auto [low, high] = std::minmax_element(samples.values.begin(), samples.values.end());
-  if (*low < 0.0 || *high > 1.0) {
-    samples.low = *low;
-    samples.high = *high;
-  }
+  append_samples(texture.samples, samples_of_channel(image, channel));
 }
 
 /// The finding of one texture or average.
@@ -94,7 +67,8 @@ struct Finding {
 };
 
 std::string describe(const CheckFailure& failure) {
-  return fmt::format("{} {:.4g}, allowed {:.4g}..{:.4g}", failure.figure, failure.value, failure.low, failure.high);
+  return fmt::format("{} {:.4g}, allowed {:.4g}..{:.4g}", failure.figure, failure.value, failure.low,
+                     failure.high);
 }
 
 Json to_json(const Finding& finding, bool checked) {
@@ -115,7 +89,8 @@ std::string table(const std::vector<Finding>& findings, bool checked) {
     volumes |= finding.figures.shape.depth > 1;
   }
   std::string text = fmt::format(
-      "{:{}}        size  f<=.0625     <=.125    <=.1875      <=.25       <=.5   peak     at   aniso dB  max dB  "
+      "{:{}}        size  f<=.0625     <=.125    <=.1875      <=.25       <=.5   peak     at   aniso dB  max "
+      "dB  "
       "blur 1.0    1.5    2.0  hist dev{}{}\n",
       "file", width, volumes ? "  time at 0" : "", checked ? "  check" : "");
   for (const auto& [name, f, failures] : findings) {
@@ -123,9 +98,10 @@ std::string table(const std::vector<Finding>& findings, bool checked) {
     if (f.shape.depth > 1) size += fmt::format("x{}", f.shape.depth);
     text += fmt::format("{:{}}  {:>10}", name, width, size);
     for (const double band : f.bands.mean) text += fmt::format(" {:>10.3g}", band);
-    text += fmt::format("  {:5.2f}  {:5.3f}      {:5.1f}   {:5.1f}     {:5.1f}  {:5.1f}  {:5.1f}  {:8.3g}", f.peak,
-                        f.peak_frequency, f.anisotropy_db_mean, f.anisotropy_db_max, f.gauss_residual_db[0],
-                        f.gauss_residual_db[1], f.gauss_residual_db[2], f.histogram_max_deviation);
+    text += fmt::format("  {:5.2f}  {:5.3f}      {:5.1f}   {:5.1f}     {:5.1f}  {:5.1f}  {:5.1f}  {:8.3g}",
+                        f.peak, f.peak_frequency, f.anisotropy_db_mean, f.anisotropy_db_max,
+                        f.gauss_residual_db[0], f.gauss_residual_db[1], f.gauss_residual_db[2],
+                        f.histogram_max_deviation);
     if (volumes) text += fmt::format("  {:9.3g}", f.temporal_power_at_0);
     if (checked) text += failures.empty() ? "  pass" : "  FAIL";
     text += "\n";
@@ -149,6 +125,7 @@ void write_picture(const std::filesystem::path& path, const PowerSpectrum& power
 
 void run(const Settings& settings, Session& session) {
   if (!settings.png.empty()) check_writable(settings.png, SampleType::u8, 1);
+  if (!settings.csv.empty()) check_text_writable(settings.csv);
   // A volume is one texture of all files; else each file is one.
   const std::size_t files_a_texture = settings.volume ? settings.files.size() : 1;
   std::vector<Finding> findings;
@@ -157,15 +134,16 @@ void run(const Settings& settings, Session& session) {
   double worst_deviation = 0.0;
   session.progress.start("spectrum");
   for (std::size_t first = 0; first < settings.files.size(); first += files_a_texture) {
-    Samples samples;
+    Texture texture;
     for (std::size_t i = 0; i < files_a_texture; ++i) {
-      append_slice(settings.files[first + i], settings.channel, session.execution, samples);
+      append_slice(settings.files[first + i], settings.channel, session.execution, texture);
     }
-    const std::string name =
-        settings.files[first].string() + (settings.volume ? fmt::format(" ({} slices)", files_a_texture) : "");
+    const std::string name = settings.files[first].string() +
+                             (settings.volume ? fmt::format(" ({} slices)", files_a_texture) : "");
     const Analysis analysis = [&] {
       try {
-        return analyse(samples.values, samples.shape, samples.low, samples.high, session.execution);
+        return analyse(texture.samples.value, texture.shape, texture.samples.low, texture.samples.high,
+                       session.execution);
       } catch (const Error& error) {
         ErrorInfo info = error.info();
         info.where = name;
@@ -203,7 +181,8 @@ void run(const Settings& settings, Session& session) {
 
   if (settings.json) {
     Json result{{"textures", Json::array()}};
-    for (const auto& finding : findings) result["textures"].push_back(to_json(finding, settings.check.has_value()));
+    for (const auto& finding : findings)
+      result["textures"].push_back(to_json(finding, settings.check.has_value()));
     session.output.write_result(result, true);
   } else {
     session.output.write(table(findings, settings.check.has_value()));
@@ -230,28 +209,35 @@ Verb spectrum_verb() {
   Verb verb;
   verb.name = "spectrum";
   verb.summary = "Print how good textures are, and check them against thresholds.";
-  verb.examples = {{"bn spectrum mask.png --check blue", "is it blue noise? exit code 5 where it is not"},
-                   {"bn spectrum masks/*.png --json", "figures of each and of their average, for a program"},
-                   {"bn spectrum slices/*.png --volume --check stbn", "a spatiotemporal volume, its slices in order"},
-                   {"bn spectrum mask.png --png spectrum.png --csv curves.csv", "the spectrum to look at and to plot"}};
+  verb.examples = {
+      {"bn spectrum mask.png --check blue", "is it blue noise? exit code 5 where it is not"},
+      {"bn spectrum masks/*.png --json", "figures of each and of their average, for a program"},
+      {"bn spectrum slices/*.png --volume --check stbn", "a spatiotemporal volume, its slices in order"},
+      {"bn spectrum mask.png --png spectrum.png --csv curves.csv", "the spectrum to look at and to plot"}};
   verb.details =
-      "One line a texture: mean power against white noise in five bands of frequency (cycles/pixel, of the ranks of "
-      "the pixels), the radial peak and its frequency, anisotropy (0 dB is that of white noise), what a Gaussian blur "
-      "of 1, 1.5 and 2 pixels leaves against white noise (dB), the largest deviation of the histogram from flat. "
+      "One line a texture: mean power against white noise in five bands of frequency (cycles/pixel, of the "
+      "ranks of "
+      "the pixels), the radial peak and its frequency, anisotropy (0 dB is that of white noise), what a "
+      "Gaussian blur "
+      "of 1, 1.5 and 2 pixels leaves against white noise (dB), the largest deviation of the histogram from "
+      "flat. "
       "Several files of one size give the figures of their averaged spectrum too.\n\n"
-      "Checks: blue (lower bands, isotropy, histogram), white (every band and isotropy within the chance of white "
-      "noise), stbn (slices blue, every pixel blue in time; needs --volume). The thresholds and their reasons are in "
+      "Checks: blue (lower bands, isotropy, histogram), white (every band and isotropy within the chance of "
+      "white "
+      "noise), stbn (slices blue, every pixel blue in time; needs --volume). The thresholds and their "
+      "reasons are in "
       "docs/spectrum.md. A check that fails is named and ends with exit code 5.";
   verb.arguments.positional_list("FILE", settings->files, file_path(), "The textures.");
-  verb.arguments.option("--check",
-                        settings->check,
+  verb.arguments.option("--check", settings->check,
                         choice_of<std::optional<Check>>(
                             {{"blue", Check::blue}, {"white", Check::white}, {"stbn", Check::stbn}}),
                         "Compare with the thresholds of this kind.");
   verb.arguments.option("--channel", settings->channel, integer_in(0, 63), "The channel to analyse.");
-  verb.arguments.flag("--volume", settings->volume, true, "The files are the slices of one volume, in order.");
-  verb.arguments.option("--png", settings->png, file_path(),
-                        "Write the spectrum (of the average) as a picture: DC in the middle, -50 to +12.5 dB.");
+  verb.arguments.flag("--volume", settings->volume, true,
+                      "The files are the slices of one volume, in order.");
+  verb.arguments.option(
+      "--png", settings->png, file_path(),
+      "Write the spectrum (of the average) as a picture: DC in the middle, -50 to +12.5 dB.");
   verb.arguments.option("--csv", settings->csv, file_path(), "Write power and anisotropy by frequency.");
   verb.arguments.flag("--json", settings->json, true, "Print JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };

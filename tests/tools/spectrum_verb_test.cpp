@@ -1,5 +1,5 @@
-// Protects: bn spectrum reads what it is given, prints one vocabulary as table and JSON, and exits 5 with the name
-// of the figure that failed.
+// Protects: bn spectrum reads what it is given, prints one vocabulary as table and JSON, and exits 5 with the
+// name of the figure that failed.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -17,7 +17,8 @@ namespace {
 
 class SpectrumVerb : public testing::Test {
  protected:
-  void write(const std::string& name, const Grid<std::uint32_t>& rank, SampleType type = SampleType::u8) const {
+  void write(const std::string& name, const Grid<std::uint32_t>& rank,
+             SampleType type = SampleType::u8) const {
     write_image(scratch_ / name, encode_mask(rank, type), {});
   }
 
@@ -47,7 +48,8 @@ TEST_F(SpectrumVerb, PrintsJsonWithTheStatedNames) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto result = nlohmann::json::parse(outcome.out).at("textures").at(0);
   EXPECT_EQ(result.at("bands").size(), 5u);
-  for (const char* name : {"peak", "peak_frequency", "anisotropy_db_mean", "anisotropy_db_max", "histogram_max_deviation"}) {
+  for (const char* name :
+       {"peak", "peak_frequency", "anisotropy_db_mean", "anisotropy_db_max", "histogram_max_deviation"}) {
     EXPECT_TRUE(result.at(name).is_number()) << name;
   }
   EXPECT_EQ(result.at("gauss_residual_db").size(), 3u);
@@ -86,6 +88,12 @@ TEST_F(SpectrumVerb, RefusesWhatItCannotRead) {
   EXPECT_EQ(run({}).exit_code, 1);
   EXPECT_EQ(run({"mask.png", "--channel", "3"}).exit_code, 3);
   EXPECT_EQ(run({"mask.png", "narrow.png", "--volume"}).exit_code, 3);
+  // What cannot be written is found before anything is read.
+  for (const char* option : {"--png", "--csv"}) {
+    const ProcessResult outcome = run({"absent.png", option, "no/out.png"});
+    EXPECT_EQ(outcome.exit_code, 2);
+    EXPECT_EQ(outcome.err.find("absent"), std::string::npos) << outcome.err;
+  }
 
   Image image;
   image.size = {4, 4};
