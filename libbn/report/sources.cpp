@@ -12,143 +12,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <tuple>
 
 #include "bn/retarget.h"
+#include "report/candidates.h"
 
 namespace bn::report {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr int kMostChannels = 4;
-constexpr std::uintmax_t kMaxManifestBytes = 16u << 20;
-
-/// What a manifest tells of a file.
-struct JobNote {
-  std::string job, kind;
-  std::optional<double> seconds;
-  int order = std::numeric_limits<int>::max();  ///< in the manifest; files that are in none come last
-};
-
-struct Candidate {
-  fs::path path;
-  std::string name;
-  JobNote job;
-};
-
-bool is_texture_name(const fs::path& path) {
-  static const std::set<std::string> kExtensions{".png", ".exr", ".tif", ".tiff", ".bin", ".h",   ".bmp",
-                                                 ".hdr", ".pfm", ".pgm", ".ppm",  ".tga", ".jpg", ".jpeg"};
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return kExtensions.contains(extension);
-}
-
-/// By relative path. A manifest that cannot be read is a note: the files stand without it.
-std::map<std::string, JobNote> read_manifest(const fs::path& path, std::vector<std::string>& notes) {
-  std::map<std::string, JobNote> result;
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) return result;
-  try {
-    if (fs::file_size(path) > kMaxManifestBytes) throw std::runtime_error("too large");
-    std::ifstream file(path, std::ios::binary);
-    const Json manifest = Json::parse(std::string(std::istreambuf_iterator<char>(file), {}));
-    for (const Json& job : manifest.at("jobs")) {
-      const std::string name = job.at("name").get<std::string>();
-      JobNote note{name, job.at("kind").get<std::string>(), std::nullopt, 0};
-      if (const Json times = manifest.value("times", Json::object()).value("jobs", Json::object());
-          times.contains(name)) {
-        note.seconds = times.at(name).get<double>();
-      }
-      for (const Json& entry : job.at("files")) {
-        note.order = static_cast<int>(result.size());
-        result[entry.at("path").get<std::string>()] = note;
-      }
-    }
-  } catch (const std::exception& problem) {
-    notes.push_back(fmt::format("{}: not a manifest that can be read, so times are missing ({})",
-                                path.string(), problem.what()));
-  }
-  return result;
-}
-
-/// `prefixed`: names begin with the folder, because there are others.
-std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, const Execution& execution,
-                                     std::vector<std::string>& notes) {
-  std::vector<Candidate> found;
-  const auto jobs = read_manifest(folder / "manifest.json", notes);
-  std::error_code error;
-  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
-  while (!error && entry != end) {
-    throw_if_stopped(execution);
-    std::error_code ignored;
-    if (entry->is_regular_file(ignored) && is_texture_name(entry->path())) {
-      if (found.size() == static_cast<std::size_t>(kMaxReportFiles)) {
-        throw Error({.code = ErrorCode::over_limit,
-                     .what = "too many files for one report",
-                     .where = folder.string(),
-                     .limit = fmt::format("{} files", kMaxReportFiles),
-                     .remedy = "name the files or folders that matter"});
-      }
-      const std::string name = entry->path().lexically_relative(folder).generic_string();
-      const auto job = jobs.find(name);
-      found.push_back({entry->path(), prefixed ? entry->path().generic_string() : name,
-                       job == jobs.end() ? JobNote{} : job->second});
-    }
-    entry.increment(error);
-  }
-  if (error) notes.push_back(fmt::format("{}: {}", folder.string(), error.message()));
-  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
-    return a.job.order != b.job.order ? a.job.order < b.job.order : natural_less(a.name, b.name);
-  });
-  return found;
-}
-
-template <class Sample>
-void append_channel(const Image& image, int channel, std::vector<double>& values) {
-  const auto pixels = static_cast<std::size_t>(image.size.area());
-  for (std::size_t i = 0; i < pixels; ++i) {
-    Sample sample;
-    const std::size_t at = i * static_cast<std::size_t>(image.channels) + static_cast<std::size_t>(channel);
-    std::memcpy(&sample, image.samples.data() + at * sizeof(Sample), sizeof(Sample));
-    values.push_back(static_cast<double>(sample));
-  }
-}
-
-void append_slice(const Image& image, int channel, Texture& texture) {
-  texture.type = image.type;
-  switch (image.type) {
-    case SampleType::u8:
-      texture.high = 256.0;
-      return append_channel<std::uint8_t>(image, channel, texture.values);
-    case SampleType::u16:
-      texture.high = 65536.0;
-      return append_channel<std::uint16_t>(image, channel, texture.values);
-    case SampleType::f32:
-      return append_channel<float>(image, channel, texture.values);
-  }
-}
-
-/// Values that are no fractions of one are spread over those that occur.
-void set_range(Texture& texture) {
-  if (texture.type != SampleType::f32) return;
-  const auto [low, high] = std::minmax_element(texture.values.begin(), texture.values.end());
-  if (*low >= 0.0 && *high <= 1.0) return;
-  texture.low = *low;
-  texture.high = *high;
-}
 
 /// Throws invalid_input on NaN or infinity, as the analysis would, before anything else is done with them.
 void check_finite(const Texture& texture) {
-  for (const double value : texture.values) {
+  for (const double value : texture.samples.value) {
     if (!std::isfinite(value)) {
       throw Error({.code = ErrorCode::invalid_input,
                    .what = "it holds NaN or infinity",
@@ -197,15 +75,16 @@ class Collector {
   }
 
   void add_volume(const std::string& name, const std::vector<Candidate>& slices) {
-    Texture volume{.name = name, .shape = {}, .values = {}, .metadata = {}, .also = {}, .seconds = {}};
+    Texture volume{.name = name, .shape = {}, .samples = {}, .metadata = {}, .also = {}, .seconds = {}};
     try {
       for (const Candidate& slice : slices) {
         throw_if_stopped(execution_);
         const FileContent content = read_image(slice.path, execution_);
         ++collection_.readable;
         const Shape shape{content.image.size.width, content.image.size.height, volume.shape.depth};
-        if (volume.values.empty()) {
+        if (volume.samples.value.empty()) {
           volume.shape = {shape.width, shape.height, 1};
+          volume.type = content.image.type;
           volume.metadata = content.metadata;
           check_memory(execution_,
                        static_cast<std::uint64_t>(shape.width) * static_cast<std::uint64_t>(shape.height) *
@@ -218,7 +97,7 @@ class Collector {
         } else {
           ++volume.shape.depth;
         }
-        append_slice(content.image, 0, volume);
+        append_samples(volume.samples, samples_of_channel(content.image, 0));
       }
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
@@ -230,7 +109,6 @@ class Collector {
     } catch (const Error& error) {
       return note(name, error.info().what);
     }
-    set_range(volume);
     keep(std::move(volume));
   }
 
@@ -298,18 +176,18 @@ class Collector {
     for (int c = 0; c < std::min(content.image.channels, kMostChannels); ++c) {
       Texture texture{.name = candidate.name,
                       .shape = {content.image.size.width, content.image.size.height},
-                      .values = {},
+                      .samples = samples_of_channel(content.image, c),
+                      .type = content.image.type,
                       .metadata = content.metadata,
                       .also = {},
                       .seconds = candidate.job.seconds};
-      append_slice(content.image, c, texture);
       check_finite(texture);
-      set_range(texture);
+      const std::vector<double>& values = texture.samples.value;
       // Opaque alpha, or grey that is stored as colour.
-      const bool constant = std::all_of(texture.values.begin(), texture.values.end(),
-                                        [&](double value) { return value == texture.values[0]; });
+      const bool constant =
+          std::all_of(values.begin(), values.end(), [&](double value) { return value == values[0]; });
       const bool repeated = std::any_of(channels.begin(), channels.end(),
-                                        [&](const Texture& other) { return other.values == texture.values; });
+                                        [&](const Texture& other) { return other.samples.value == values; });
       if (c > 0 && (constant || repeated)) continue;
       if (content.image.channels > 1) texture.name += fmt::format(", channel {}", c);
       channels.push_back(std::move(texture));
@@ -378,30 +256,6 @@ class Collector {
 };
 
 }  // namespace
-
-bool natural_less(std::string_view a, std::string_view b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (digit(a[i]) && digit(b[j])) {
-      const auto number = [&](std::string_view text, std::size_t& at) {
-        while (at < text.size() && text[at] == '0') ++at;
-        const std::size_t begin = at;
-        while (at < text.size() && digit(text[at])) ++at;
-        return text.substr(begin, at - begin);
-      };
-      const std::string_view left = number(a, i), right = number(b, j);
-      if (left.size() != right.size()) return left.size() < right.size();
-      if (left != right) return left < right;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i, ++j;
-    }
-  }
-  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
-  return a < b;  // equal but for leading zeros
-}
 
 Collection collect(const ReportOptions& options, const Execution& execution) {
   Collection collection;

@@ -17,8 +17,7 @@ namespace bn::report {
 struct Texture {
   std::string name;  ///< as the user would name it
   Shape shape;
-  std::vector<double> values;    ///< as stored
-  double low = 0.0, high = 1.0;  ///< what an even spread of values would cover
+  ChannelSamples samples;
   SampleType type = SampleType::u8;
   std::optional<Metadata> metadata;
   std::vector<std::string> also;  ///< other encodings of it
@@ -49,8 +48,5 @@ struct Collection {
 };
 
 Collection collect(const ReportOptions& options, const Execution& execution);
-
-/// Names as people order them: digits by their value.
-bool natural_less(std::string_view a, std::string_view b);
 
 }  // namespace bn::report

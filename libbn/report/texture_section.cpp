@@ -102,9 +102,10 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
 Grid<std::uint8_t> grey_of(const Texture& texture, int z) {
   Grid<std::uint8_t> grey({texture.shape.width, texture.shape.height});
   const std::size_t first = static_cast<std::size_t>(z) * grey.count();
-  const double span = texture.high > texture.low ? texture.high - texture.low : 1.0;
+  const double span =
+      texture.samples.high > texture.samples.low ? texture.samples.high - texture.samples.low : 1.0;
   for (std::size_t i = 0; i < grey.count(); ++i) {
-    const double share = (texture.values[first + i] - texture.low) / span;
+    const double share = (texture.samples.value[first + i] - texture.samples.low) / span;
     grey[i] = static_cast<std::uint8_t>(std::clamp(std::floor(share * 256.0), 0.0, 255.0));
   }
   return grey;
@@ -253,8 +254,8 @@ Plot correlation_plot(const std::vector<double>& r, Shape shape, std::string fil
 
 Plot histogram_plot(const Texture& texture, std::string file_name) {
   const int bins = static_cast<int>(std::min<std::int64_t>(kHistogramBins, texture.shape.count()));
-  const auto counts =
-      histogram(texture.values, texture.low, std::max(texture.high, texture.low + 1e-300), bins);
+  const auto counts = histogram(texture.samples.value, texture.samples.low,
+                                std::max(texture.samples.high, texture.samples.low + 1e-300), bins);
   Plot plot{PlotStyle::histogram, std::move(file_name), "value", "count_against_even", {}};
   plot.curves.push_back({"evenly spread", Role::white, 0, {0.0, 1.0}, {1.0, 1.0}});
   Curve curve{"this texture", Role::texture, 0, {}, {}};
@@ -295,14 +296,16 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
                         const Execution& execution) {
   const Shape shape = texture.shape;
   const bool volume = shape.depth > 1;
-  const Analysis analysis = analyse(texture.values, shape, texture.low, texture.high, execution);
+  const Analysis analysis =
+      analyse(texture.samples.value, shape, texture.samples.low, texture.samples.high, execution);
   const PowerSpectrum plane = volume ? project(analysis.power, Projection::xy) : analysis.power;
   const RadialCurve radial = radial_power(plane);
   const FiguresOfMerit& figures = analysis.figures;
   const Verdict verdict = verdict_of(figures);
   const std::vector<double> r = autocorrelation(plane, execution);
   const Shape flat{shape.width, shape.height};
-  const std::vector<double> slice(texture.values.begin(), texture.values.begin() + flat.count());
+  const std::vector<double> slice(texture.samples.value.begin(),
+                                  texture.samples.value.begin() + flat.count());
 
   Section section;
   section.failed = !verdict.passed;

@@ -2,14 +2,15 @@
 // before work.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <thread>
 
+#include "report/candidates.h"
 #include "report/child_process.h"
 #include "report/fixtures.h"
 #include "report/html.h"
 #include "report/plot.h"
-#include "report/sources.h"
 
 namespace bn::report {
 namespace {

@@ -1,0 +1,118 @@
+// Finding files: folders are searched to their ground, links to folders are not followed, and a
+// manifest.json, where there is one, gives the order and tells whose job made what.
+
+#include "report/candidates.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "bn/report.h"
+
+namespace bn::report {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+constexpr std::uintmax_t kMaxManifestBytes = 16u << 20;
+
+bool is_texture_name(const fs::path& path) {
+  static const std::set<std::string> kExtensions{".png", ".exr", ".tif", ".tiff", ".bin", ".h",   ".bmp",
+                                                 ".hdr", ".pfm", ".pgm", ".ppm",  ".tga", ".jpg", ".jpeg"};
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return kExtensions.contains(extension);
+}
+
+/// By relative path. A manifest that cannot be read is a note: the files stand without it.
+std::map<std::string, JobNote> read_manifest(const fs::path& path, std::vector<std::string>& notes) {
+  std::map<std::string, JobNote> result;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return result;
+  try {
+    if (fs::file_size(path) > kMaxManifestBytes) throw std::runtime_error("too large");
+    std::ifstream file(path, std::ios::binary);
+    const Json manifest = Json::parse(std::string(std::istreambuf_iterator<char>(file), {}));
+    for (const Json& job : manifest.at("jobs")) {
+      const std::string name = job.at("name").get<std::string>();
+      JobNote note{name, job.at("kind").get<std::string>(), std::nullopt, 0};
+      if (const Json times = manifest.value("times", Json::object()).value("jobs", Json::object());
+          times.contains(name)) {
+        note.seconds = times.at(name).get<double>();
+      }
+      for (const Json& entry : job.at("files")) {
+        note.order = static_cast<int>(result.size());
+        result[entry.at("path").get<std::string>()] = note;
+      }
+    }
+  } catch (const std::exception& problem) {
+    notes.push_back(fmt::format("{}: not a manifest that can be read, so times are missing ({})",
+                                path.string(), problem.what()));
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, const Execution& execution,
+                                     std::vector<std::string>& notes) {
+  std::vector<Candidate> found;
+  const auto jobs = read_manifest(folder / "manifest.json", notes);
+  std::error_code error;
+  fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
+  while (!error && entry != end) {
+    throw_if_stopped(execution);
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored) && is_texture_name(entry->path())) {
+      if (found.size() == static_cast<std::size_t>(kMaxReportFiles)) {
+        throw Error({.code = ErrorCode::over_limit,
+                     .what = "too many files for one report",
+                     .where = folder.string(),
+                     .limit = fmt::format("{} files", kMaxReportFiles),
+                     .remedy = "name the files or folders that matter"});
+      }
+      const std::string name = entry->path().lexically_relative(folder).generic_string();
+      const auto job = jobs.find(name);
+      found.push_back({entry->path(), prefixed ? entry->path().generic_string() : name,
+                       job == jobs.end() ? JobNote{} : job->second});
+    }
+    entry.increment(error);
+  }
+  if (error) notes.push_back(fmt::format("{}: {}", folder.string(), error.message()));
+  std::sort(found.begin(), found.end(), [](const Candidate& a, const Candidate& b) {
+    return a.job.order != b.job.order ? a.job.order < b.job.order : natural_less(a.name, b.name);
+  });
+  return found;
+}
+
+bool natural_less(std::string_view a, std::string_view b) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (digit(a[i]) && digit(b[j])) {
+      const auto number = [&](std::string_view text, std::size_t& at) {
+        while (at < text.size() && text[at] == '0') ++at;
+        const std::size_t begin = at;
+        while (at < text.size() && digit(text[at])) ++at;
+        return text.substr(begin, at - begin);
+      };
+      const std::string_view left = number(a, i), right = number(b, j);
+      if (left.size() != right.size()) return left.size() < right.size();
+      if (left != right) return left < right;
+    } else if (a[i] != b[j]) {
+      return a[i] < b[j];
+    } else {
+      ++i, ++j;
+    }
+  }
+  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
+  return a < b;  // equal but for leading zeros
+}
+
+}  // namespace bn::report
