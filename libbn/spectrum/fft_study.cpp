@@ -102,10 +102,14 @@ FftStudyRow study_ours(const std::vector<float>& values, int side, const std::ve
   const std::vector<T> typed(values.begin(), values.end());
   const Execution one_thread{.threads = 1, .stop = execution.stop};
   HalfSpectrum<T> spectrum;
-  const double seconds =
-      median_seconds([&] { spectrum = transform<T>(typed, {side, side}, one_thread); }, execution);
+  const double seconds = median_seconds(
+      [&] {
+        spectrum = transform<T>(typed, {side, side}, one_thread);
+      },
+      execution);
   const double error = relative_error(columns, side, [&](int kx, int ky) {
-    return LongComplex(spectrum.values[static_cast<std::size_t>(std::int64_t{ky} * spectrum.shape.half_width() + kx)]);
+    return LongComplex(
+        spectrum.values[static_cast<std::size_t>(std::int64_t{ky} * spectrum.shape.half_width() + kx)]);
   });
   return {"bn", sizeof(T) == sizeof(float) ? "float" : "double", side, seconds, error};
 }
@@ -149,7 +153,8 @@ std::vector<FftStudyRow> study_fft(const std::vector<int>& sides, const Executio
     rows.push_back(study_ours<double>(values, side, columns, execution));
     rows.push_back(study_ours<float>(values, side, columns, execution));
     rows.push_back(study_openimageio(values, side, columns, execution));
-    if (execution.progress) execution.progress(static_cast<double>(rows.size()) / (3.0 * static_cast<double>(sides.size())));
+    if (execution.progress)
+      execution.progress(static_cast<double>(rows.size()) / (3.0 * static_cast<double>(sides.size())));
   }
   return rows;
 }

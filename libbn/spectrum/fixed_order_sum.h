@@ -42,7 +42,8 @@ double fixed_order_sum(const Execution& execution, std::int64_t count, const Ter
   const std::int64_t chunks = (count + kSumChunk - 1) / kSumChunk;
   std::vector<double> partial(static_cast<std::size_t>(chunks));
   parallel_for(execution, chunks, [&](std::int64_t c) {
-    partial[static_cast<std::size_t>(c)] = sum_chunk(c * kSumChunk, std::min(count, (c + 1) * kSumChunk), term);
+    partial[static_cast<std::size_t>(c)] =
+        sum_chunk(c * kSumChunk, std::min(count, (c + 1) * kSumChunk), term);
   });
   return sum_by_halves(partial.data(), chunks);
 }

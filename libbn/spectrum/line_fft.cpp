@@ -1,10 +1,9 @@
 // One line's transform.
 //
 // Problem: lines of any length, primes included, fast and to the last places of T.
-// Method: Eigen's mixed-radix FFT where every prime factor is small. It spends length * p steps on a prime factor
-// p, so lengths with a large one go through Bluestein's identity  2 j k = j^2 + k^2 - (k - j)^2,
-// which turns the transform into a circular convolution with the chirp exp(i pi k^2 / n), done at a
-// power of two.
+// Method: Eigen's mixed-radix FFT where every prime factor is small. It spends length * p steps on a prime
+// factor p, so lengths with a large one go through Bluestein's identity  2 j k = j^2 + k^2 - (k - j)^2, which
+// turns the transform into a circular convolution with the chirp exp(i pi k^2 / n), done at a power of two.
 // Invariant: the chirp's angle is reduced as an integer, k^2 mod 2n, before it meets a floating-point number.
 // Source: L. Bluestein, "A linear filtering approach to the computation of the discrete Fourier transform",
 // IEEE Trans. Audio and Electroacoustics 18(4), 1970.

@@ -1,10 +1,9 @@
 // Power spectra: from values to |F|^2 / (N * variance), their averages and projections.
 //
-// Problem: the signal may be small on a large offset, or of any scale, and its mean must not leak into the low
-// frequencies, which are what a blue-noise mask is judged by.
-// Method: values are scaled by a power of two to at most 2 (exact), the mean is taken off twice (the second
-// time it is the rounding error of the first), and what is left is scaled by a power of two to about 1.
-// Sums are in a fixed order (fixed_order_sum.h).
+// Problem: the signal may be small on a large offset, or of any scale, and its mean must not leak into the
+// low frequencies, which are what a blue-noise mask is judged by. Method: values are scaled by a power of two
+// to at most 2 (exact), the mean is taken off twice (the second time it is the rounding error of the first),
+// and what is left is scaled by a power of two to about 1. Sums are in a fixed order (fixed_order_sum.h).
 
 #include <algorithm>
 #include <cmath>
@@ -39,9 +38,11 @@ Centring centre(std::span<const double> values, const Execution& execution) {
   const double n = static_cast<double>(count);
   c.before = scale_to_one(std::max(std::abs(*low), std::abs(*high)));
   c.mean = fixed_order_sum(execution, count, [&](std::int64_t i) { return values[i] * c.before; }) / n;
-  c.correction = fixed_order_sum(execution, count, [&](std::int64_t i) { return values[i] * c.before - c.mean; }) / n;
+  c.correction =
+      fixed_order_sum(execution, count, [&](std::int64_t i) { return values[i] * c.before - c.mean; }) / n;
   c.after = scale_to_one(std::max(std::abs(c(*low)), std::abs(c(*high))));
-  c.variance = fixed_order_sum(execution, count, [&](std::int64_t i) { return c(values[i]) * c(values[i]); }) / n;
+  c.variance =
+      fixed_order_sum(execution, count, [&](std::int64_t i) { return c(values[i]) * c(values[i]); }) / n;
   return c;
 }
 
@@ -80,8 +81,10 @@ double PowerSpectrum::at(std::int64_t kx, std::int64_t ky, std::int64_t kz) cons
 PowerSpectrum power_spectrum(std::span<const double> values, Shape shape, const Execution& execution) {
   const auto count = static_cast<std::int64_t>(values.size());
   check_shape(shape, count, "power spectrum");
-  check_memory(execution, static_cast<std::uint64_t>(half_count(shape)) * (sizeof(std::complex<double>) + sizeof(double)),
-               "power spectrum");
+  check_memory(
+      execution,
+      static_cast<std::uint64_t>(half_count(shape)) * (sizeof(std::complex<double>) + sizeof(double)),
+      "power spectrum");
   check_finite(values, shape, "power spectrum", execution);
   const Centring centring = centre(values, execution);
   PowerSpectrum power{.shape = shape, .half = {}};

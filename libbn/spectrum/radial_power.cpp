@@ -186,7 +186,8 @@ double gauss_residual_db(const PowerSpectrum& power, double sigma_px) {
     left.push_back(gain * sum_chunk(first, pitch, [&](std::int64_t kx) { return row[kx] * gain_x[kx]; }));
     white.push_back(gain * sum_chunk(first, pitch, [&](std::int64_t kx) { return gain_x[kx]; }));
   }
-  const double ratio = sum_by_halves(left.data(), std::ssize(left)) / sum_by_halves(white.data(), std::ssize(white));
+  const double ratio =
+      sum_by_halves(left.data(), std::ssize(left)) / sum_by_halves(white.data(), std::ssize(white));
   return ratio > 0.0 ? 10.0 * std::log10(ratio) : kNaN;
 }
 

@@ -1,11 +1,11 @@
 // Ranks of values, and what follows from them: thresholds and histograms.
 //
 // Problem: the same mask comes as 8 bit, 16 bit or float, its values spaced differently and some
-// equal; the figures should not care. Sorting 4096^2 values by comparisons would take longer than the transform.
-// Method: integers in a range not much longer than the data are counted; others go through a radix
-// sort of their place between the least and the greatest value, in 32 bits, and the few that share a place through a
-// comparison sort.
-// Invariant: equal values get equal ranks, their mean; the order of equal values decides nothing.
+// equal; the figures should not care. Sorting 4096^2 values by comparisons would take longer than the
+// transform. Method: integers in a range not much longer than the data are counted; others go through a radix
+// sort of their place between the least and the greatest value, in 32 bits, and the few that share a place
+// through a comparison sort. Invariant: equal values get equal ranks, their mean; the order of equal values
+// decides nothing.
 
 #include <fmt/format.h>
 
@@ -86,7 +86,8 @@ std::vector<double> ranks_by_sorting(std::span<const double> values, double low,
       first = last;
       continue;
     }
-    std::sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.begin() + static_cast<std::ptrdiff_t>(last),
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+              order.begin() + static_cast<std::ptrdiff_t>(last),
               [&](const Placed& a, const Placed& b) { return values[a.index] < values[b.index]; });
     while (first < last) {
       std::size_t end = first + 1;
@@ -125,7 +126,8 @@ std::vector<double> midranks(std::span<const double> values, const Execution& ex
                  .remedy = "analyse a part"});
   }
   if (values.empty()) return {};
-  check_finite(values, {static_cast<int>(std::min<std::int64_t>(count, kMaxSpectrumSide)), 1, 1}, "ranks", execution);
+  check_finite(values, {static_cast<int>(std::min<std::int64_t>(count, kMaxSpectrumSide)), 1, 1}, "ranks",
+               execution);
   check_memory(execution, static_cast<std::uint64_t>(count) * (2 * sizeof(Placed) + sizeof(double)), "ranks");
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   const double range = *high - *low + 1.0;

@@ -68,8 +68,8 @@ enum class Direction { forward, inverse };
 
 /// Transforms `lines` neighbouring lines of `length` values `stride` apart, in each of `groups` groups.
 template <class T>
-void transform_lines(std::complex<T>* data, int length, std::int64_t stride, std::int64_t lines, std::int64_t groups,
-                     Direction direction, const Execution& execution) {
+void transform_lines(std::complex<T>* data, int length, std::int64_t stride, std::int64_t lines,
+                     std::int64_t groups, Direction direction, const Execution& execution) {
   if (length == 1) return;
   const std::int64_t blocks = (lines + kBlockLines - 1) / kBlockLines;
   Workshop<T> workshop(length);
@@ -130,32 +130,35 @@ void check_shape(const Shape& shape, std::int64_t count, std::string_view where)
     }
   }
   if (count != shape.count()) {
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = fmt::format("{} values for {} x {} x {}", count, shape.width, shape.height, shape.depth),
-                 .where = std::string(where),
-                 .limit = fmt::format("{} values", shape.count()),
-                 .remedy = ""});
+    throw Error(
+        {.code = ErrorCode::invalid_input,
+         .what = fmt::format("{} values for {} x {} x {}", count, shape.width, shape.height, shape.depth),
+         .where = std::string(where),
+         .limit = fmt::format("{} values", shape.count()),
+         .remedy = ""});
   }
 }
 
 template <class T>
-void check_finite(std::span<const T> values, const Shape& shape, std::string_view where, const Execution& execution) {
+void check_finite(std::span<const T> values, const Shape& shape, std::string_view where,
+                  const Execution& execution) {
   const auto total = static_cast<std::int64_t>(values.size());
   const std::int64_t chunk = std::int64_t{1} << 16;
   std::vector<std::int64_t> bad(static_cast<std::size_t>((total + chunk - 1) / chunk));
   parallel_for(execution, std::ssize(bad), [&](std::int64_t c) {
     std::int64_t count = 0;
-    for (std::int64_t i = c * chunk; i < std::min(total, (c + 1) * chunk); ++i) count += !std::isfinite(values[i]);
+    for (std::int64_t i = c * chunk; i < std::min(total, (c + 1) * chunk); ++i)
+      count += !std::isfinite(values[i]);
     bad[c] = count;
   });
   const std::int64_t count = std::accumulate(bad.begin(), bad.end(), std::int64_t{0});
   if (count == 0) return;
-  const std::int64_t first = std::find_if(values.begin(), values.end(), [](T v) { return !std::isfinite(v); }) -
-                             values.begin();
+  const std::int64_t first =
+      std::find_if(values.begin(), values.end(), [](T v) { return !std::isfinite(v); }) - values.begin();
   const std::int64_t row = first / shape.width;
   throw Error({.code = ErrorCode::invalid_input,
-               .what = fmt::format("{} of {} values are NaN or infinite, the first ({}) at x {}, y {}, z {}", count,
-                                   total, static_cast<double>(values[first]), first % shape.width,
+               .what = fmt::format("{} of {} values are NaN or infinite, the first ({}) at x {}, y {}, z {}",
+                                   count, total, static_cast<double>(values[first]), first % shape.width,
                                    row % shape.height, row / shape.height),
                .where = std::string(where),
                .limit = "finite values",
@@ -172,7 +175,8 @@ HalfSpectrum<T> transform_rows(Shape shape, const std::function<void(std::int64_
     load_row(row, bench.row.data());
     bench.fft.forward_real(spectrum.values.data() + row * pitch, bench.row.data());
   });
-  transform_lines(spectrum.values.data(), shape.height, pitch, pitch, shape.depth, Direction::forward, execution);
+  transform_lines(spectrum.values.data(), shape.height, pitch, pitch, shape.depth, Direction::forward,
+                  execution);
   transform_lines(spectrum.values.data(), shape.depth, pitch * shape.height, pitch * shape.height, 1,
                   Direction::forward, execution);
   return spectrum;
@@ -182,7 +186,8 @@ template <class T>
 HalfSpectrum<T> transform(std::span<const T> values, Shape shape, const Execution& execution) {
   check_shape(shape, static_cast<std::int64_t>(values.size()), "transform");
   check_finite(values, shape, "transform", execution);
-  check_memory(execution, static_cast<std::uint64_t>(half_count(shape)) * sizeof(std::complex<T>), "transform");
+  check_memory(execution, static_cast<std::uint64_t>(half_count(shape)) * sizeof(std::complex<T>),
+               "transform");
   const std::function<void(std::int64_t, T*)> load_row = [&](std::int64_t row, T* line) {
     std::copy_n(values.data() + row * shape.width, shape.width, line);
   };
@@ -204,7 +209,8 @@ std::vector<T> inverse_transform(HalfSpectrum<T> spectrum, const Execution& exec
   const std::int64_t pitch = shape.half_width();
   transform_lines(spectrum.values.data(), shape.depth, pitch * shape.height, pitch * shape.height, 1,
                   Direction::inverse, execution);
-  transform_lines(spectrum.values.data(), shape.height, pitch, pitch, shape.depth, Direction::inverse, execution);
+  transform_lines(spectrum.values.data(), shape.height, pitch, pitch, shape.depth, Direction::inverse,
+                  execution);
   std::vector<T> values(static_cast<std::size_t>(shape.count()));
   const T scale = static_cast<T>(1.0 / static_cast<double>(shape.count()));
   for_each_row<T>(shape, execution, [&](auto& bench, std::int64_t row) {

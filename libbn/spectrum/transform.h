@@ -22,7 +22,8 @@ void check_flat(const PowerSpectrum& power, std::string_view where);
 
 /// Throws invalid_input with the number of values that are not finite and the first one's position.
 template <class T>
-void check_finite(std::span<const T> values, const Shape& shape, std::string_view where, const Execution& execution);
+void check_finite(std::span<const T> values, const Shape& shape, std::string_view where,
+                  const Execution& execution);
 
 /// Frequencies that a HalfSpectrum of `shape` holds.
 inline std::int64_t half_count(const Shape& shape) {

@@ -42,7 +42,8 @@ std::vector<LongComplex> direct_dft(const std::vector<T>& values, Shape shape) {
         }
         line[static_cast<std::size_t>(k)] = sum;
       }
-      for (int k = 0; k < side; ++k) data[first + static_cast<std::size_t>(k) * stride] = line[static_cast<std::size_t>(k)];
+      for (int k = 0; k < side; ++k)
+        data[first + static_cast<std::size_t>(k) * stride] = line[static_cast<std::size_t>(k)];
     }
     stride *= static_cast<std::size_t>(side);
   }

@@ -1,5 +1,5 @@
-// Protects: power is |F|^2 / (N variance) with the mean gone, whatever offset or scale the values carry; averages,
-// projections and the autocorrelation equal their definitions.
+// Protects: power is |F|^2 / (N variance) with the mean gone, whatever offset or scale the values carry;
+// averages, projections and the autocorrelation equal their definitions.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -43,7 +43,8 @@ void expect_power(const std::vector<double>& values, Shape shape, double bound) 
 }
 
 TEST(Power, EqualsItsDefinition) {
-  for (const Shape shape : {Shape{2}, Shape{3}, Shape{61}, Shape{1, 64}, Shape{64, 64}, Shape{61, 31}, Shape{8, 8, 5}}) {
+  for (const Shape shape :
+       {Shape{2}, Shape{3}, Shape{61}, Shape{1, 64}, Shape{64, 64}, Shape{61, 31}, Shape{8, 8, 5}}) {
     expect_power(white_values(shape.count(), 3), shape, 1e-13);
   }
 }
@@ -76,7 +77,8 @@ TEST(Power, AnOffsetOf1e8IsGone) {
 
 TEST(Power, ConstantHasNone) {
   for (const double value : {0.0, 0.1, -1e30, 1e-310}) {
-    for (const double p : power_spectrum(std::vector<double>(61 * 64, value), {61, 64}).half) ASSERT_EQ(p, 0.0);
+    for (const double p : power_spectrum(std::vector<double>(61 * 64, value), {61, 64}).half)
+      ASSERT_EQ(p, 0.0);
   }
 }
 
@@ -131,12 +133,14 @@ TEST(Projection, EqualsTheMeanOfLowerDimensionalSpectra) {
   const PowerSpectrum xy = project(volume, Projection::xy);
   std::vector<long double> slices(48);
   for (int z = 0; z < 5; ++z) {
-    const auto f = test::direct_dft(std::vector<long double>(v.begin() + z * 48, v.begin() + (z + 1) * 48), {8, 6});
+    const auto f =
+        test::direct_dft(std::vector<long double>(v.begin() + z * 48, v.begin() + (z + 1) * 48), {8, 6});
     for (std::size_t i = 0; i < 48; ++i) slices[i] += std::norm(f[i]) / (48 * variance) / 5;
   }
   EXPECT_EQ(xy.shape, (Shape{8, 6}));
   EXPECT_EQ(xy.textures, 5);
-  for (int i = 1; i < 48; ++i) ASSERT_NEAR(xy.at(i % 8, i / 8), static_cast<double>(slices[static_cast<std::size_t>(i)]), 1e-13);
+  for (int i = 1; i < 48; ++i)
+    ASSERT_NEAR(xy.at(i % 8, i / 8), static_cast<double>(slices[static_cast<std::size_t>(i)]), 1e-13);
 
   const PowerSpectrum xz = project(volume, Projection::xz);
   std::vector<long double> sections(40);
@@ -149,7 +153,8 @@ TEST(Projection, EqualsTheMeanOfLowerDimensionalSpectra) {
     for (std::size_t i = 0; i < 40; ++i) sections[i] += std::norm(f[i]) / (40 * variance) / 6;
   }
   EXPECT_EQ(xz.shape, (Shape{8, 5}));
-  for (int i = 1; i < 40; ++i) ASSERT_NEAR(xz.at(i % 8, i / 8), static_cast<double>(sections[static_cast<std::size_t>(i)]), 1e-13);
+  for (int i = 1; i < 40; ++i)
+    ASSERT_NEAR(xz.at(i % 8, i / 8), static_cast<double>(sections[static_cast<std::size_t>(i)]), 1e-13);
 
   const PowerSpectrum time = project(volume, Projection::z);
   std::vector<long double> sequences(5);
@@ -160,8 +165,10 @@ TEST(Projection, EqualsTheMeanOfLowerDimensionalSpectra) {
     for (std::size_t k = 0; k < 5; ++k) sequences[k] += std::norm(f[k]) / (5 * variance);
   }
   EXPECT_EQ(time.shape, (Shape{5}));
-  EXPECT_NEAR(time.at(0), static_cast<double>(sequences[0] / 47), 1e-13);  // 47: the volume's DC is no part of it
-  for (int k = 1; k < 5; ++k) ASSERT_NEAR(time.at(k), static_cast<double>(sequences[static_cast<std::size_t>(k)] / 48), 1e-13);
+  EXPECT_NEAR(time.at(0), static_cast<double>(sequences[0] / 47),
+              1e-13);  // 47: the volume's DC is no part of it
+  for (int k = 1; k < 5; ++k)
+    ASSERT_NEAR(time.at(k), static_cast<double>(sequences[static_cast<std::size_t>(k)] / 48), 1e-13);
 }
 
 TEST(Autocorrelation, EqualsItsDefinition) {

@@ -1,5 +1,5 @@
-// Protects: no frequency is lost or counted twice, bands and annuli lie where their frequencies say, white noise
-// reads 1 with the background's anisotropy, and the Gaussian residual equals an actual blur.
+// Protects: no frequency is lost or counted twice, bands and annuli lie where their frequencies say, white
+// noise reads 1 with the background's anisotropy, and the Gaussian residual equals an actual blur.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,8 @@ TEST(RadialPower, AnisotropyEqualsItsDefinition) {
 TEST(RadialPower, WhiteNoiseOver64Seeds) {
   const Shape shape{256, 256};
   PowerSpectrum average = power_spectrum(white_values(shape.count(), 1), shape);
-  for (std::uint64_t seed = 2; seed <= 64; ++seed) accumulate(average, power_spectrum(white_values(shape.count(), seed), shape));
+  for (std::uint64_t seed = 2; seed <= 64; ++seed)
+    accumulate(average, power_spectrum(white_values(shape.count(), seed), shape));
   const FiguresOfMerit figures = figures_of_merit(average, 0.0);
   for (const double band : figures.bands.mean) EXPECT_NEAR(band, 1.0, 0.02);
   EXPECT_NEAR(figures.anisotropy_db_mean, -10.0 * std::log10(64.0), 0.3);
@@ -137,7 +138,8 @@ TEST(GaussResidual, EqualsABlur) {
   }
   // The sum of the squared weights is the mean of G^2 over all k; DC's share of it is 1/N.
   const double white = gain - 1.0 / n;
-  EXPECT_NEAR(gauss_residual_db(power_spectrum(values, shape), sigma), 10.0 * std::log10(left / variance / white), 1e-10);
+  EXPECT_NEAR(gauss_residual_db(power_spectrum(values, shape), sigma),
+              10.0 * std::log10(left / variance / white), 1e-10);
   EXPECT_THROW(gauss_residual_db(power_spectrum(values, shape), 0.0), Error);
 }
 

@@ -27,14 +27,15 @@ TEST(Midranks, EqualTheirDefinition) {
   auto uniform = test::white_values(500, 1);
   EXPECT_EQ(midranks(uniform), direct_midranks(uniform));
   auto coarse = uniform, wide = uniform, permutation = uniform;
-  for (double& v : coarse) v = std::floor(v * 37) - 11;              // counted
-  for (double& v : wide) v = std::pow(10.0, 600 * v - 300);          // nearly all in one place of the sort
+  for (double& v : coarse) v = std::floor(v * 37) - 11;      // counted
+  for (double& v : wide) v = std::pow(10.0, 600 * v - 300);  // nearly all in one place of the sort
   for (std::size_t i = 0; i < wide.size(); i += 3) wide[i] = -wide[i];
   std::iota(permutation.begin(), permutation.end(), -7.0);
   std::reverse(permutation.begin() + 100, permutation.end());
   auto almost = permutation;
   almost[3] = almost[4];  // right range, but not each value once
-  for (const auto& values : {coarse, wide, permutation, almost}) EXPECT_EQ(midranks(values), direct_midranks(values));
+  for (const auto& values : {coarse, wide, permutation, almost})
+    EXPECT_EQ(midranks(values), direct_midranks(values));
   auto near = uniform;  // all but one in one place, many equal
   for (double& v : near) v = 1.0 + std::floor(v * 300) * 0x1p-52;
   near[250] = -1e300;
@@ -52,7 +53,8 @@ TEST(Midranks, EqualTheirDefinition) {
 
 TEST(Midranks, FloatAndEightBitTakeTheOrder) {
   std::vector<double> floats;
-  for (const double v : test::white_values(700, 2)) floats.push_back(static_cast<double>(static_cast<float>(v)));
+  for (const double v : test::white_values(700, 2))
+    floats.push_back(static_cast<double>(static_cast<float>(v)));
   EXPECT_EQ(midranks(floats), direct_midranks(floats));
 }
 

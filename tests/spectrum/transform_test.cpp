@@ -1,5 +1,5 @@
-// Protects: the transform equals its definition to the last places, for every size and shape; the inverse gives the
-// data back; threads change no bit; bad input is refused with its position.
+// Protects: the transform equals its definition to the last places, for every size and shape; the inverse
+// gives the data back; threads change no bit; bad input is refused with its position.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -34,8 +34,8 @@ double relative_error(const std::vector<T>& values, Shape shape) {
   return static_cast<double>(std::sqrt(error / (total > 0 ? total : 1.0L)));
 }
 
-// Eight rounding units, as the header states: a convolution's three transforms on each of two axes where sides
-// have large prime factors, half of that elsewhere.
+// Eight rounding units, as the header states: a convolution's three transforms on each of two axes where
+// sides have large prime factors, half of that elsewhere.
 constexpr double kDoubleBound = 8 * 0x1p-53;
 constexpr double kFloatBound = 8 * 0x1p-24;
 
@@ -76,16 +76,17 @@ TEST_P(Sizes, ThreadsChangeNoBit) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Transform, Sizes,
-    testing::Values(Shape{1}, Shape{2}, Shape{3}, Shape{4}, Shape{6}, Shape{61}, Shape{64}, Shape{127}, Shape{210},
-                    Shape{1021}, Shape{1, 2}, Shape{1, 127}, Shape{1, 64}, Shape{2, 2}, Shape{3, 5}, Shape{61, 61},
-                    Shape{64, 64}, Shape{127, 33}, Shape{66, 127}, Shape{210, 14}, Shape{62, 74}, Shape{8, 8, 5},
-                    Shape{1, 1, 7}, Shape{5, 1, 37}, Shape{4, 6, 41}),
-    [](const auto& test) {
-      return std::to_string(test.param.width) + "x" + std::to_string(test.param.height) + "x" +
-             std::to_string(test.param.depth);
-    });
+INSTANTIATE_TEST_SUITE_P(Transform, Sizes,
+                         testing::Values(Shape{1}, Shape{2}, Shape{3}, Shape{4}, Shape{6}, Shape{61},
+                                         Shape{64}, Shape{127}, Shape{210}, Shape{1021}, Shape{1, 2},
+                                         Shape{1, 127}, Shape{1, 64}, Shape{2, 2}, Shape{3, 5}, Shape{61, 61},
+                                         Shape{64, 64}, Shape{127, 33}, Shape{66, 127}, Shape{210, 14},
+                                         Shape{62, 74}, Shape{8, 8, 5}, Shape{1, 1, 7}, Shape{5, 1, 37},
+                                         Shape{4, 6, 41}),
+                         [](const auto& test) {
+                           return std::to_string(test.param.width) + "x" + std::to_string(test.param.height) +
+                                  "x" + std::to_string(test.param.depth);
+                         });
 
 TEST(Transform, ConstantHasNothingButDc) {
   for (const Shape shape : {Shape{64, 64}, Shape{61, 127}, Shape{8, 8, 5}}) {
@@ -93,7 +94,8 @@ TEST(Transform, ConstantHasNothingButDc) {
     const auto spectrum = transform<double>(values, shape);
     const double total = 0.1 * static_cast<double>(shape.count());
     EXPECT_NEAR(spectrum.values[0].real(), total, total * 1e-15);
-    for (std::size_t i = 1; i < spectrum.values.size(); ++i) ASSERT_LT(std::abs(spectrum.values[i]), total * 1e-15);
+    for (std::size_t i = 1; i < spectrum.values.size(); ++i)
+      ASSERT_LT(std::abs(spectrum.values[i]), total * 1e-15);
   }
 }
 
@@ -122,7 +124,8 @@ TEST(Transform, SinusoidOffTheGridLeaksAsDefined) {
   const Shape shape{127, 64};
   std::vector<double> values;
   for (int y = 0; y < 64; ++y) {
-    for (int x = 0; x < 127; ++x) values.push_back(std::sin(2.0 * std::numbers::pi * (0.1234 * x + 0.0517 * y) + 0.3));
+    for (int x = 0; x < 127; ++x)
+      values.push_back(std::sin(2.0 * std::numbers::pi * (0.1234 * x + 0.0517 * y) + 0.3));
   }
   EXPECT_LT(relative_error(values, shape), kDoubleBound);
 }
@@ -137,7 +140,8 @@ TEST(Transform, ScaleCostsNoAccuracy) {
 }
 
 TEST(Transform, ParsevalHolds) {
-  for (const Shape shape : {Shape{210}, Shape{64, 64}, Shape{61, 127}, Shape{127, 61}, Shape{8, 8, 5}, Shape{7, 9, 11}}) {
+  for (const Shape shape :
+       {Shape{210}, Shape{64, 64}, Shape{61, 127}, Shape{127, 61}, Shape{8, 8, 5}, Shape{7, 9, 11}}) {
     const auto values = centred_noise(shape);
     const auto spectrum = transform<double>(values, shape);
     long double energy = 0.0L, power = 0.0L;
@@ -173,7 +177,8 @@ TEST(Transform, RefusesValuesThatAreNotFinite) {
 
 TEST(Transform, RefusesShapesThatDoNotFit) {
   const std::vector<double> values(6, 1.0);
-  for (const Shape shape : {Shape{7}, Shape{0, 6}, Shape{-2, -3}, Shape{6, 1, 2}, Shape{kMaxSpectrumSide + 1}}) {
+  for (const Shape shape :
+       {Shape{7}, Shape{0, 6}, Shape{-2, -3}, Shape{6, 1, 2}, Shape{kMaxSpectrumSide + 1}}) {
     EXPECT_THROW(transform<double>(values, shape), Error);
     EXPECT_THROW(power_spectrum(values, shape), Error);
   }
