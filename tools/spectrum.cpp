@@ -92,7 +92,7 @@ std::string table(const std::vector<Finding>& findings, bool checked) {
       "{:{}}        size  f<=.0625     <=.125    <=.1875      <=.25       <=.5   peak     at   aniso dB  max "
       "dB  "
       "blur 1.0    1.5    2.0  hist dev{}{}\n",
-      "file", width, volumes ? "  time at 0" : "", checked ? "  check" : "");
+      "file", width, volumes ? "  time at 0  time low" : "", checked ? "  check" : "");
   for (const auto& [name, f, failures] : findings) {
     std::string size = fmt::format("{}x{}", f.shape.width, f.shape.height);
     if (f.shape.depth > 1) size += fmt::format("x{}", f.shape.depth);
@@ -102,7 +102,7 @@ std::string table(const std::vector<Finding>& findings, bool checked) {
                         f.peak, f.peak_frequency, f.anisotropy_db_mean, f.anisotropy_db_max,
                         f.gauss_residual_db[0], f.gauss_residual_db[1], f.gauss_residual_db[2],
                         f.histogram_max_deviation);
-    if (volumes) text += fmt::format("  {:9.3g}", f.temporal_power_at_0);
+    if (volumes) text += fmt::format("  {:9.3g}  {:8.3g}", f.temporal_power_at_0, f.temporal_power_low);
     if (checked) text += failures.empty() ? "  pass" : "  FAIL";
     text += "\n";
   }

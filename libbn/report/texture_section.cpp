@@ -29,7 +29,7 @@ std::string frequency(double f) { return fmt::format("{:.3f}", f); }
 
 /// The words of a figure, by its JSON name.
 std::string label_of(const std::string& figure) {
-  static const std::array<std::pair<std::string_view, std::string_view>, 9> kLabels{{
+  static const std::array<std::pair<std::string_view, std::string_view>, 10> kLabels{{
       {"bands[0]", "power, 0 &lt; <i>f</i> ≤ .0625"},
       {"bands[1]", "power, .0625 &lt; <i>f</i> ≤ .125"},
       {"bands[2]", "power, .125 &lt; <i>f</i> ≤ .1875"},
@@ -39,6 +39,7 @@ std::string label_of(const std::string& figure) {
       {"anisotropy_db_max", "anisotropy, largest, dB"},
       {"histogram_max_deviation", "histogram, largest deviation"},
       {"temporal_power_at_0", "power in time at 0 cycles/frame"},
+      {"temporal_power_low", "power in time, 0 &lt; <i>f</i> ≤ .125 cycles/frame"},
   }};
   for (const auto& [name, label] : kLabels) {
     if (name == figure) return std::string(label);

@@ -55,6 +55,14 @@ void find_anisotropy(const RadialCurve& curve, FiguresOfMerit& figures) {
   figures.anisotropy_db_max = annuli > 0 ? largest : kNaN;
 }
 
+/// Mean power at 0 < f <= 1/8 of a line.
+double mean_of_low(const PowerSpectrum& line) {
+  const int last = line.shape.width / 8;
+  double sum = 0.0;
+  for (int k = 1; k <= last; ++k) sum += line.half[static_cast<std::size_t>(k)];
+  return last > 0 ? sum / last : kNaN;
+}
+
 }  // namespace
 
 FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max_deviation) {
@@ -62,7 +70,9 @@ FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max
     FiguresOfMerit figures = figures_of_merit(project(power, Projection::xy), histogram_max_deviation);
     figures.shape = power.shape;
     figures.textures = power.textures;
-    figures.temporal_power_at_0 = project(power, Projection::z).half[0];
+    const PowerSpectrum time = project(power, Projection::z);
+    figures.temporal_power_at_0 = time.half[0];
+    figures.temporal_power_low = mean_of_low(time);
     return figures;
   }
   FiguresOfMerit figures{.shape = power.shape, .textures = power.textures, .bands = band_power(power)};
@@ -76,7 +86,8 @@ FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max
   return figures;
 }
 
-Analysis analyse(std::span<const double> values, Shape shape, double low, double high, const Execution& execution) {
+Analysis analyse(std::span<const double> values, Shape shape, double low, double high,
+                 const Execution& execution) {
   check_shape(shape, static_cast<std::int64_t>(values.size()), "analysis");
   check_finite(values, shape, "analysis", execution);
   const auto bins = static_cast<int>(std::min<std::int64_t>(kHistogramBins, shape.count()));

@@ -25,8 +25,8 @@ std::string cell(double value) { return std::isfinite(value) ? fmt::format("{}",
 void append_curve(const PowerSpectrum& power, std::string_view axis, std::string& text) {
   const RadialCurve curve = radial_power(power);
   for (std::size_t j = 0; j < curve.power.size(); ++j) {
-    text += fmt::format("{},{},{},{},{}\n", axis, curve.frequency[j], cell(curve.power[j]), cell(curve.anisotropy_db[j]),
-                        curve.count[j]);
+    text += fmt::format("{},{},{},{},{}\n", axis, curve.frequency[j], cell(curve.power[j]),
+                        cell(curve.anisotropy_db[j]), curve.count[j]);
   }
 }
 
@@ -35,12 +35,17 @@ void append_curve(const PowerSpectrum& power, std::string_view axis, std::string
 std::string to_json(const FiguresOfMerit& figures) {
   std::string text = fmt::format(
       "{{\"width\": {}, \"height\": {}, \"depth\": {}, \"textures\": {}, \"bands\": {}, \"peak\": {}, "
-      "\"peak_frequency\": {}, \"anisotropy_db_mean\": {}, \"anisotropy_db_max\": {}, \"gauss_residual_db\": {}, "
+      "\"peak_frequency\": {}, \"anisotropy_db_mean\": {}, \"anisotropy_db_max\": {}, \"gauss_residual_db\": "
+      "{}, "
       "\"histogram_max_deviation\": {}",
-      figures.shape.width, figures.shape.height, figures.shape.depth, figures.textures, array(figures.bands.mean),
-      number(figures.peak), number(figures.peak_frequency), number(figures.anisotropy_db_mean),
-      number(figures.anisotropy_db_max), array(figures.gauss_residual_db), number(figures.histogram_max_deviation));
-  if (figures.shape.depth > 1) text += ", \"temporal_power_at_0\": " + number(figures.temporal_power_at_0);
+      figures.shape.width, figures.shape.height, figures.shape.depth, figures.textures,
+      array(figures.bands.mean), number(figures.peak), number(figures.peak_frequency),
+      number(figures.anisotropy_db_mean), number(figures.anisotropy_db_max), array(figures.gauss_residual_db),
+      number(figures.histogram_max_deviation));
+  if (figures.shape.depth > 1) {
+    text += fmt::format(", \"temporal_power_at_0\": {}, \"temporal_power_low\": {}",
+                        number(figures.temporal_power_at_0), number(figures.temporal_power_low));
+  }
   return text + "}";
 }
 

@@ -9,13 +9,15 @@
 #include "bn/noise.h"
 #include "direct_dft.h"
 #include "reference_mask.h"
+#include "reference_stbn.h"
 
 namespace bn {
 namespace {
 
 std::vector<std::string> failures(const std::vector<double>& values, Shape shape, double range, Check kind) {
   std::vector<std::string> names;
-  for (const CheckFailure& f : check(analyse(values, shape, 0.0, range).figures, kind)) names.push_back(f.figure);
+  for (const CheckFailure& f : check(analyse(values, shape, 0.0, range).figures, kind))
+    names.push_back(f.figure);
   return names;
 }
 
@@ -40,7 +42,8 @@ std::vector<double> with_raised_floor(std::vector<double> ranks, int side, doubl
   for (int ky = -reach; ky <= reach; ++ky) {
     for (int kx = 0; kx <= reach; ++kx) {
       if (kx * kx + ky * ky > reach * reach || (kx == 0 && ky <= 0)) continue;
-      const double phase = 2.0 * std::numbers::pi * static_cast<double>(random_bits(1, 0, draw++) >> 11) * 0x1p-53;
+      const double phase =
+          2.0 * std::numbers::pi * static_cast<double>(random_bits(1, 0, draw++) >> 11) * 0x1p-53;
       for (int i = 0; i < side * side; ++i) {
         ranks[static_cast<std::size_t>(i)] +=
             amplitude * std::cos(2.0 * std::numbers::pi * (kx * (i % side) + ky * (i / side)) / side + phase);
@@ -59,7 +62,8 @@ TEST(CheckBlue, PassesGoodMasks) {
 }
 
 TEST(CheckBlue, PassesPetersMasks) {
-  for (const char* name : {"peters_cc0_128_HDR_L_0.png", "peters_cc0_128_LDR_LLL1_0.png", "peters_cc0_64_HDR_L_0.png"}) {
+  for (const char* name :
+       {"peters_cc0_128_HDR_L_0.png", "peters_cc0_128_LDR_LLL1_0.png", "peters_cc0_64_HDR_L_0.png"}) {
     const auto mask = test::reference_mask(name);
     if (!mask) GTEST_SKIP() << "reference masks are not beside this checkout";
     EXPECT_TRUE(failures(mask->values, mask->shape, mask->range, Check::blue).empty()) << name;
@@ -81,7 +85,9 @@ TEST(CheckBlue, FailsWhiteNoise) {
 
 TEST(CheckBlue, FailsABayerMatrixForItsIsotropy) {
   for (const int side : {16, 64, 256}) {
-    EXPECT_TRUE(contains(failures(values_of(bayer_mask(side)), {side, side}, side * side, Check::blue), "anisotropy_db_mean")) << side;
+    EXPECT_TRUE(contains(failures(values_of(bayer_mask(side)), {side, side}, side * side, Check::blue),
+                         "anisotropy_db_mean"))
+        << side;
   }
 }
 
@@ -107,15 +113,27 @@ TEST(CheckBlue, FailsAConstant) {
 }
 
 TEST(CheckWhite, PassesWhiteNoiseOfAnySize) {
-  for (const Shape shape : {Shape{16, 16}, Shape{32, 48}, Shape{64, 64}, Shape{200, 100}, Shape{32, 32, 16}}) {
+  for (const Shape shape :
+       {Shape{16, 16}, Shape{32, 48}, Shape{64, 64}, Shape{200, 100}, Shape{32, 32, 16}}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-      EXPECT_TRUE(failures(test::white_values(shape.count(), seed), shape, 1.0, Check::white).empty()) << seed;
+      EXPECT_TRUE(failures(test::white_values(shape.count(), seed), shape, 1.0, Check::white).empty())
+          << seed;
     }
   }
 }
 
 TEST(CheckWhite, FailsBlueNoise) {
   EXPECT_TRUE(contains(failures(baked_mask(64, 1.9), {64, 64}, 4096, Check::white), "bands[1]"));
+}
+
+TEST(CheckStbn, PassesSpatiotemporalMasks) {
+  for (const Shape shape : {Shape{32, 32, 16}, Shape{32, 32, 8}, Shape{24, 40, 12}}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+      const auto volume = test::spatiotemporal_mask(shape, 1.9, 1.9, seed);
+      const double range = static_cast<double>(shape.count());
+      EXPECT_EQ(failures(volume, shape, range, Check::stbn), std::vector<std::string>{}) << shape.depth;
+    }
+  }
 }
 
 TEST(CheckStbn, FailsMasksThatAreIndependentInTime) {
@@ -125,7 +143,36 @@ TEST(CheckStbn, FailsMasksThatAreIndependentInTime) {
     const auto rank = void_and_cluster({.size = {32, 32}, .seed = z + 1});
     volume.insert(volume.end(), rank.begin(), rank.end());
   }
-  EXPECT_EQ(failures(volume, shape, 1024.0, Check::stbn), std::vector<std::string>{"temporal_power_at_0"});
+  EXPECT_EQ(failures(volume, shape, 1024.0, Check::stbn),
+            (std::vector<std::string>{"temporal_power_at_0", "temporal_power_low"}));
+}
+
+TEST(CheckStbn, FailsSlicesOutOfOrder) {
+  const Shape shape{32, 32, 16};
+  const auto volume = test::spatiotemporal_mask(shape, 1.9, 1.9, 1);
+  std::vector<double> shuffled;
+  for (std::ptrdiff_t z = 0; z < 16; ++z) {
+    const auto slice = volume.begin() + z * 5 % 16 * 1024;
+    shuffled.insert(shuffled.end(), slice, slice + 1024);
+  }
+  EXPECT_EQ(failures(shuffled, shape, 16384.0, Check::stbn), std::vector<std::string>{"temporal_power_low"});
+}
+
+TEST(CheckStbn, FailsWhiteNoise) {
+  const Shape shape{32, 32, 16};
+  const auto names = failures(test::white_values(shape.count(), 1), shape, 1.0, Check::stbn);
+  for (const char* name : {"bands[0]", "bands[3]", "temporal_power_at_0", "temporal_power_low"}) {
+    EXPECT_TRUE(contains(names, name)) << name;
+  }
+}
+
+TEST(CheckStbn, FailsAMaskShiftedByTheGoldenRatio) {
+  const Shape shape{32, 32, 16};
+  std::vector<double> volume;
+  for (const auto& slice : golden_ratio_slices(void_and_cluster({.size = {32, 32}}), 16)) {
+    volume.insert(volume.end(), slice.begin(), slice.end());
+  }
+  EXPECT_TRUE(contains(failures(volume, shape, 1024.0, Check::stbn), "bands[0]"));
 }
 
 TEST(CheckStbn, FailsAPicture) {

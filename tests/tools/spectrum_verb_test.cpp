@@ -11,6 +11,7 @@
 #include "bn/noise.h"
 #include "bn/texture.h"
 #include "process.h"
+#include "spectrum/reference_stbn.h"
 
 namespace bn::tools {
 namespace {
@@ -69,6 +70,27 @@ TEST_F(SpectrumVerb, TakesSlicesAsOneVolume) {
   ASSERT_EQ(result.size(), 1u);
   EXPECT_EQ(result.at(0).at("depth"), 8);
   EXPECT_LT(result.at(0).at("temporal_power_at_0"), 0.5);  // 1 where slices are independent
+}
+
+TEST_F(SpectrumVerb, ChecksASpatiotemporalVolume) {
+  const Shape shape{32, 32, 16};
+  const auto volume = test::spatiotemporal_mask(shape, 1.9, 1.9, 1);
+  std::vector<std::string> arguments, disordered;
+  for (std::size_t z = 0; z < 16; ++z) {
+    Image image{.size = {32, 32}, .channels = 1, .type = SampleType::u8, .samples = {}};
+    for (std::size_t i = 0; i < 1024; ++i) {
+      image.samples.push_back(static_cast<std::byte>(static_cast<int>(volume[z * 1024 + i]) / 64));
+    }
+    arguments.push_back("slice" + std::to_string(z) + ".png");
+    write_image(scratch_ / arguments.back(), image, {});
+    disordered.push_back("slice" + std::to_string(z * 5 % 16) + ".png");
+  }
+  for (auto* list : {&arguments, &disordered}) list->insert(list->end(), {"--volume", "--check", "stbn"});
+  const ProcessResult good = run(arguments);
+  EXPECT_EQ(good.exit_code, 0) << good.err;
+  const ProcessResult bad = run(disordered);
+  EXPECT_EQ(bad.exit_code, 5);
+  EXPECT_NE(bad.err.find("temporal_power_low"), std::string::npos) << bad.err;
 }
 
 TEST_F(SpectrumVerb, WritesPictureAndCurves) {

@@ -164,8 +164,10 @@ struct FiguresOfMerit {
   double anisotropy_db_max = 0.0;   ///< over the same
   std::array<double, 3> gauss_residual_db{};  ///< for kResidualSigmas
   double histogram_max_deviation = 0.0;
-  /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame.
+  /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame, which no order of the slices changes,
   double temporal_power_at_0 = std::numeric_limits<double>::quiet_NaN();
+  /// and at 0 < f <= 1/8 cycles/frame, which tells whether the order is a good one; NaN below 8 slices.
+  double temporal_power_low = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli;
@@ -190,7 +192,7 @@ std::string curves_csv(const PowerSpectrum& power);
 
 /// One JSON object: bands, peak, peak_frequency, anisotropy_db_mean, anisotropy_db_max,
 /// gauss_residual_db, histogram_max_deviation, width, height, depth, textures, and for volumes
-/// temporal_power_at_0. Undefined figures are null.
+/// temporal_power_at_0 and temporal_power_low. Undefined figures are null.
 std::string to_json(const FiguresOfMerit& figures);
 
 // --- checks --------------------------------------------------------------------------------------
