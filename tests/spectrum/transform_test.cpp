@@ -104,6 +104,7 @@ TEST(Transform, ImpulseIsFlat) {
     std::vector<double> values(static_cast<std::size_t>(shape.count()));
     values[values.size() / 3] = 1.0;
     for (const auto& f : transform<double>(values, shape).values) ASSERT_NEAR(std::abs(f), 1.0, 4e-15);
+    EXPECT_LT(relative_error(values, shape), kDoubleBound);  // the phases too
   }
 }
 
@@ -136,6 +137,12 @@ TEST(Transform, ScaleCostsNoAccuracy) {
     auto values = centred_noise(shape);
     for (double& v : values) v *= scale;
     EXPECT_LT(relative_error(values, shape), kDoubleBound) << scale;
+  }
+  for (const double scale : {1e-30, 1e30}) {
+    const auto values = centred_noise(shape);
+    std::vector<float> scaled;
+    for (const double v : values) scaled.push_back(static_cast<float>(v * scale));
+    EXPECT_LT(relative_error(scaled, shape), kFloatBound) << scale;
   }
 }
 
@@ -171,6 +178,8 @@ TEST(Transform, RefusesValuesThatAreNotFinite) {
     }
   };
   expect_refusal([&] { transform<double>(values, shape); });
+  const std::vector<float> floats(values.begin(), values.end());
+  expect_refusal([&] { transform<float>(floats, shape); });
   expect_refusal([&] { power_spectrum(values, shape); });
   expect_refusal([&] { analyse(values, shape, 0.0, 1.0); });
 }
