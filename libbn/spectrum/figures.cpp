@@ -14,9 +14,10 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Annuli with fewer frequencies, 16 independent ones, are too noisy to be a mean's or maximum's part.
 constexpr std::int64_t kLeastFrequencies = 32;
-/// Annuli of the corner, cut off circles of few frequencies, are joined to this many.
-constexpr std::int64_t kCornerFrequencies = 64;
 
+/// Circles of up to 1/2 cycle/pixel lie whole in the square of frequencies. Those beyond are cut to arcs of
+/// ever fewer frequencies, the largest of which would be a matter of luck: from the corner inwards they are
+/// joined until they hold as many as the last whole one.
 void find_peak(const RadialCurve& curve, FiguresOfMerit& figures) {
   figures.peak = 0.0;
   figures.peak_frequency = kNaN;
@@ -25,21 +26,24 @@ void find_peak(const RadialCurve& curve, FiguresOfMerit& figures) {
     figures.peak = power;
     figures.peak_frequency = frequency;
   };
-  // The corner: annuli from the outermost inwards, joined; its frequency is their mean.
-  std::size_t end = curve.power.size();
-  double power = 0.0, moment = 0.0;
-  std::int64_t count = 0;
-  while (end > 0 && count < kCornerFrequencies) {
-    --end;
-    if (curve.count[end] == 0) continue;
-    power += curve.power[end] * static_cast<double>(curve.count[end]);
-    moment += curve.frequency[end] * curve.power[end] * static_cast<double>(curve.count[end]);
-    count += curve.count[end];
+  std::size_t whole = 0;
+  for (; whole < curve.power.size() && curve.frequency[whole] <= 0.5; ++whole) {
+    if (curve.count[whole] > 0) consider(curve.power[whole], curve.frequency[whole]);
   }
-  for (std::size_t j = 0; j < end; ++j) {
-    if (curve.count[j] > 0) consider(curve.power[j], curve.frequency[j]);
+  const std::int64_t wanted = whole > 0 ? curve.count[whole - 1] : 1;
+  for (std::size_t end = curve.power.size(); end > whole;) {
+    double power = 0.0, moment = 0.0;
+    std::int64_t count = 0;
+    while (end > whole && count < wanted) {
+      --end;
+      if (curve.count[end] == 0) continue;
+      const double sum = curve.power[end] * static_cast<double>(curve.count[end]);
+      power += sum;
+      moment += curve.frequency[end] * sum;
+      count += curve.count[end];
+    }
+    if (power > 0.0) consider(power / static_cast<double>(count), moment / power);
   }
-  if (power > 0.0) consider(power / static_cast<double>(count), moment / power);
 }
 
 void find_anisotropy(const RadialCurve& curve, FiguresOfMerit& figures) {

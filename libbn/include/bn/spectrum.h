@@ -170,8 +170,10 @@ struct FiguresOfMerit {
   double temporal_power_low = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli;
-/// those of the corner are joined until they hold 64 frequencies, or noise there would win.
+/// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli one frequency
+/// step wide; those beyond 1/2 cycle/pixel, which the square cuts to arcs, are joined until they hold as many
+/// frequencies as the last whole one, or noise there would win. Of one texture it is high by about sqrt(2 / n), n
+/// frequencies in the annulus (docs/spectrum.md).
 FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max_deviation);
 
 /// The power of the ranks of `values`, and its figures. `low`..`high` is the range that the
