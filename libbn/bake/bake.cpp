@@ -259,7 +259,10 @@ JobRecord make_mask(const MaskEntry& entry, const Execution& execution, const Ba
   return job;
 }
 
-JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, const BakeEvents& events) {
+namespace {
+
+/// What can be checked of an entry's outputs before the work starts.
+std::vector<JobFile> checked_retarget_files(const RetargetEntry& entry) {
   const std::vector<JobFile> files = free_retarget_files(entry);
   check_recipes(files);
   for (const RetargetOutput& output : entry.outputs) {
@@ -271,6 +274,13 @@ JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, 
                  .limit = "",
                  .remedy = "write to another file"});
   }
+  return files;
+}
+
+}  // namespace
+
+JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, const BakeEvents& events) {
+  const std::vector<JobFile> files = checked_retarget_files(entry);
   const Source source = read_source(entry.image, entry.channel, execution);
   BakePlan plan;
   plan.jobs = {{.kind = JobKind::retarget, .name = entry.name, .files = {}, .estimated_seconds = 1.0}};
@@ -278,6 +288,18 @@ JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, 
   JobRecord job = run_retarget_job(entry, source, files, metered(execution, meter), written(events));
   meter.finish();
   return job;
+}
+
+JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile, const Execution& execution) {
+  if (entry.outputs.size() != 1 || entry.outputs[0].kind != RetargetOutput::Kind::tile) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "an entry of several outputs, or an atlas",
+                 .where = "outputs",
+                 .limit = "one tile",
+                 .remedy = ""});
+  }
+  const std::vector<JobFile> files = checked_retarget_files(entry);
+  return write_made_tile(entry, read_source(entry.image, entry.channel, execution), files[0], tile);
 }
 
 }  // namespace bn

@@ -241,4 +241,41 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
   return job;
 }
 
+JobRecord write_made_tile(const RetargetEntry& entry, const Source& source, const JobFile& file,
+                          const RetargetTile& tile) {
+  const RetargetOutput& output = entry.outputs.at(0);
+  const Grid<std::int32_t>& levels = source.levels.value;
+  RetargetOptions options = entry.options;
+  options.step = entry.step ? *entry.step : auto_step(levels.size()).step;
+  options.motion = output.motion;
+  const auto require = [](bool holds, const char* what) {
+    if (holds) return;
+    throw Error({.code = ErrorCode::verification_failed,
+                 .what = what,
+                 .where = "tile",
+                 .limit = "the figures of its moves on this source",
+                 .remedy = "make it for this source and these options"});
+  };
+  require(tile.move.size() == levels.size(), "its size is not its source's");
+  check_permutation(tile.move, options);
+  require(retarget_energy(levels, tile.move, options) == tile.energy, "its energy is not that of its moves");
+  require(retarget_energy(levels, Grid<Offset>(levels.size(), options.motion), options) == tile.start_energy,
+          "its start energy is not the identity's");
+  require(tile.lower_bound <= tile.energy, "its lower bound is above its energy");
+
+  JobRecord job{.kind = JobKind::retarget, .name = entry.name};
+  job.step = options.step;
+  job.orbit_length = orbit_length(levels.size(), options.step);
+  job.notes = source_notes(source, options);
+  job.tiles = {{.motion = options.motion,
+                .start_energy = tile.start_energy,
+                .energy = tile.energy,
+                .lower_bound = tile.lower_bound}};
+  Metadata metadata = retarget_metadata(entry, output, source, file);
+  metadata.tiles = job.tiles;
+  const bool scatter = output.form == MoveForm::scatter;
+  write_file(file, encode_moves(scatter ? tile.move : invert_moves(tile.move)), metadata, job, {});
+  return job;
+}
+
 }  // namespace bn

@@ -45,6 +45,10 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
                            const std::vector<JobFile>& files, const Execution& execution,
                            const OnFile& on_file);
 
+/// Writes a tile that was made elsewhere as entry.outputs[0], after checking its permutation and energies.
+JobRecord write_made_tile(const RetargetEntry& entry, const Source& source, const JobFile& file,
+                          const RetargetTile& tile);
+
 /// The part of a file's metadata that follows from the recipe and the source alone, without the
 /// energies. A file whose metadata differs in it is not the file the recipe asks for.
 Metadata mask_metadata(const MaskEntry& entry, const JobFile& file);

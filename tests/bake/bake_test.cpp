@@ -252,6 +252,47 @@ TEST(MakeRetarget, WritesAFileThatVerifiesAndWhoseRecipeMakesItAgain) {
   EXPECT_EQ(bytes_of(folder / "tiles/atlas.png"), before);
 }
 
+TEST(WriteRetarget, WritesTheFileThatMakeRetargetMakes) {
+  const TemporaryFolder out;
+  const MaskEntry mask{
+      .name = "m", .options = {.size = {32, 32}}, .outputs = {{.path = (out / "m.png").string()}}};
+  make_mask(mask);
+  RetargetEntry entry{.name = "t", .mask = "", .image = mask.outputs[0].path, .step = Offset{11, 7}};
+  entry.anneal = AnnealMethod{.proposals = 100'000};
+  for (const Offset motion : {Offset{0, 0}, Offset{-1, 1}}) {
+    entry.motion = motion == Offset{0, 0} ? 0 : 1;
+    entry.outputs = {{.path = (out / "made.png").string(), .form = MoveForm::gather, .motion = motion}};
+    make_retarget(entry);
+    const FileContent made = read_image(out / "made.png");
+
+    AnnealProblem problem;
+    problem.channels = {{levels_of_channel(read_image(entry.image).image, 0).value}};
+    problem.retarget.step = *entry.step;
+    problem.retarget.motion = motion;
+    RetargetTile tile = anneal_retarget(problem, {.proposals = 100'000}).tile;
+    tile.lower_bound = made.metadata->tiles.at(0).lower_bound;
+    entry.outputs[0].path = (out / "written.png").string();
+    const JobRecord job = write_retarget(entry, tile);
+    EXPECT_EQ(job.files.at(0).pixel_hash, made.metadata->pixel_hash);
+    EXPECT_EQ(read_image(out / "written.png").metadata->tiles, made.metadata->tiles);
+    EXPECT_EQ(failures(verify_path(out / "written.png")), "");
+
+    // A tile that is not what it says never becomes a file.
+    fs::remove(out / "written.png");
+    for (int lie = 0; lie < 4; ++lie) {
+      RetargetTile wrong = tile;
+      if (lie == 0) std::swap(wrong.move[0], wrong.move[1]);
+      if (lie == 1) --wrong.energy;
+      if (lie == 2) ++wrong.start_energy;
+      if (lie == 3) wrong.lower_bound = wrong.energy + 1;
+      EXPECT_THROW(write_retarget(entry, wrong), Error) << lie;
+    }
+    EXPECT_FALSE(fs::exists(out / "written.png"));
+    entry.outputs[0].kind = RetargetOutput::Kind::atlas;
+    EXPECT_THROW(write_retarget(entry, tile), Error);
+  }
+}
+
 TEST(MakeMask, ChecksItsOptionsBeforeTheWork) {
   const TemporaryFolder folder;
   MaskEntry sound{.name = "mask", .options = {.size = {16, 8}}};

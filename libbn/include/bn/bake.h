@@ -228,6 +228,10 @@ BakeResult bake(const Recipe& recipe, const BakeOptions& options, const Executio
 JobRecord make_mask(const MaskEntry& entry, const Execution& execution = {}, const BakeEvents& events = {});
 JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution = {},
                         const BakeEvents& events = {});
+/// Writes `tile`, which was made elsewhere (an Annealing that was watched), as the one output of `entry`, a tile.
+/// That entry.anneal makes this tile again is the caller's word; its permutation and energies are recomputed, its
+/// lower bound is bn verify's to check. Errors: as make_retarget(), and verification_failed.
+JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile, const Execution& execution = {});
 
 // --- verify --------------------------------------------------------------------------------------
 
