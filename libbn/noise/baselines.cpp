@@ -1,7 +1,8 @@
 // The patterns that blue-noise masks are compared with, as ranks.
 //
-// Each has a value per pixel; the rank of the value, ties by index, makes it a mask like any other, so that one
-// analysis fits all. Values are integers of 64 bits wherever the pattern allows, which makes the order exact.
+// Each has a value per pixel; the rank of the value, ties by index, makes it a mask like any other, so that
+// one analysis fits all. Values are integers of 64 bits wherever the pattern allows, which makes the order
+// exact.
 
 #include <fmt/format.h>
 

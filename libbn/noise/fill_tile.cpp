@@ -6,19 +6,29 @@
 //
 // Method. Energies only grow while pixels are set. So a pixel that is the least among all unset pixels
 // within the radius of the kernel keeps its energy until it is set: whoever could raise it would have
-// to come first, and cannot. It may be set at once, whatever is going on elsewhere. And as each step of
-// the sequential order sets the least of what is left, while what is left only grows, that order is the
-// order of (energy when set, index): sorting by it afterwards gives the ranks (rank_order.h).
+// to come first, and cannot. It leads: it may be set at once, whatever is going on elsewhere. And as
+// each step of the sequential order sets the least of what is left, while what is left only grows, that
+// order is the order of (energy when set, index): sorting by it afterwards gives the ranks
+// (rank_order.h).
 //
-// Here the test is made for whole blocks of 8x8 pixels: a block may set its least pixel if its minimum
-// is below those of all blocks in reach. That is stricter than necessary and a few vector instructions
-// for sixteen blocks. A round finds all such blocks of a tile, then sets their pixels; no two are in
-// reach of each other. About one block in thirty is found in a round.
+// A round finds the leading pixels of a tile, at most one in each block of 8x8 pixels, in three passes
+// without a branch that depends on the data. First the blocks whose minimum is the least of all blocks
+// that every pixel in them has in reach: candidates, one block in eleven. Then the candidates' least
+// pixels. Then whether those come before all blocks that they themselves have in reach, which is a block
+// or two more on some sides: half of them do, one block in twenty-two. They are out of each other's
+// reach, so they can be set in any order.
 //
-// Invariants. (1) Minima of blocks outside the tile may be out of date by any number of rounds: they
-// are lower bounds, so waiting for them is safe. (2) The least pixel of the whole torus never waits, so
-// visiting all tiles again and again ends. (3) Which blocks are found depends on the visits; which
-// energy a pixel has when it is set does not.
+// A tile moves while it is filled, by a block to the left and up after each round. Blocks on its right
+// and lower side thus stay behind those on its left and upper side by a few rounds at most, and whoever
+// fills the next tile on the right or below meets pixels that have gone ahead and need not be waited
+// for. (Tiles that stand still end as islands whose shores all wait: half as many leading pixels a
+// round. Sliding is what the tiling of loops over grids calls time skewing: M. Wonnacott, "Using time
+// skewing to eliminate idle time due to memory bandwidth and network limitations", IPDPS 2000.)
+//
+// Invariants. (1) Minima outside the tile may be out of date by any number of rounds: they are lower
+// bounds, so waiting for them is safe. (2) The least pixel of the whole torus never waits, so visiting
+// all tiles again and again ends. (3) Which pixels lead in a round depends on the visits; which energy
+// a pixel has when it is set does not.
 //
 // Source: the order is that of Ulichney 1993; the local rule is the one of conservative parallel event
 // simulation (Chandy & Misra 1979).
@@ -30,8 +40,10 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
+#include "noise/add_kernel-inl.h"
 #include "noise/fill_tile.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -39,128 +51,22 @@ namespace bn {
 namespace HWY_NAMESPACE {
 namespace {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<std::int32_t, 16>;
-constexpr int kLanes = static_cast<int>(hn::MaxLanes(Tag()));
-static_assert(kBlockPixels % kLanes == 0);
-
-/// Adds 64 weights to a block; returns the least sum of each lane.
-HWY_INLINE hn::Vec<Tag> add_weights(const std::int32_t* HWY_RESTRICT weights,
-                                    std::int32_t* HWY_RESTRICT energy) {
+/// The lanes `first`, `first` + 1 ... (Iota of a variable is slow in Highway 1.0.)
+HWY_INLINE hn::Vec<Tag> lanes_from(int first) {
   const Tag d;
-  auto least = hn::Add(hn::Load(d, energy), hn::LoadU(d, weights));
-  hn::Store(least, d, energy);
-  for (int i = kLanes; i < kBlockPixels; i += kLanes) {
-    const auto sum = hn::Add(hn::Load(d, energy + i), hn::LoadU(d, weights + i));
-    hn::Store(sum, d, energy + i);
-    least = hn::Min(least, sum);
-  }
-  return least;
+  return hn::Add(hn::Iota(d, 0), hn::Set(d, first));
 }
 
-#if HWY_TARGET != HWY_SCALAR
-/// Folds a vector until its four lanes are left and stores them.
-template <class D>
-HWY_INLINE void store_minima_of_quarters(D d, hn::Vec<D> v, std::int32_t* to) {
-  if constexpr (hn::MaxLanes(D()) == 4) {
-    hn::StoreU(v, d, to);
-  } else {
-    const hn::Half<D> half;
-    store_minima_of_quarters(half, hn::Min(hn::LowerHalf(half, v), hn::UpperHalf(half, v)), to);
-  }
-}
-
-/// Stores the minimum of each of four vectors: a transposition that takes minima on its way.
-HWY_INLINE void store_four_minima(hn::Vec<Tag> v0, hn::Vec<Tag> v1, hn::Vec<Tag> v2, hn::Vec<Tag> v3,
-                                  std::int32_t* to) {
-  const Tag d;
-  const hn::Repartition<std::int64_t, Tag> pairs;
-  const auto v01 =
-      hn::BitCast(pairs, hn::Min(hn::InterleaveLower(d, v0, v1), hn::InterleaveUpper(d, v0, v1)));
-  const auto v23 =
-      hn::BitCast(pairs, hn::Min(hn::InterleaveLower(d, v2, v3), hn::InterleaveUpper(d, v2, v3)));
-  const auto low = hn::BitCast(d, hn::InterleaveLower(pairs, v01, v23));
-  const auto high = hn::BitCast(d, hn::InterleaveUpper(pairs, v01, v23));
-  store_minima_of_quarters(d, hn::Min(low, high), to);
-}
-#endif
-
-/// Adds the kernel around one image of the pixel, which may lie outside the field.
-HWY_INLINE void add_image(EnergyField& field, const BlockKernel& kernel, int x, int y) {
-  const int left = x - kernel.radius();
-  const int top = y - kernel.radius();
-  const int block_x = left >> kBlockShift;
-  const int block_y = top >> kBlockShift;
-  const int phase_x = left & (kBlockSide - 1);
-  const int phase_y = top & (kBlockSide - 1);
-  const int first_column = std::max(0, -block_x);
-  const int columns = std::min(kernel.span(phase_x), field.blocks_x - block_x) - first_column;
-  const int first_row = std::max(0, -block_y);
-  const int rows = std::min(kernel.span(phase_y), field.blocks_y - block_y) - first_row;
-  const std::ptrdiff_t weight_stride = kernel.column_stride();
-  for (int row = first_row; row < first_row + rows; ++row) {
-    const auto at = static_cast<std::size_t>((block_y + row) * field.blocks_x + block_x + first_column);
-    EnergyBlock* blocks = field.blocks.data() + at;
-    std::int32_t* minima = field.minimum.data() + at;
-    const std::int32_t* weights = kernel.weights(phase_x, first_column, phase_y, row);
-    int i = 0;
-#if HWY_TARGET != HWY_SCALAR
-    for (; i + 4 <= columns; i += 4, weights += 4 * weight_stride) {
-      const auto v0 = add_weights(weights, blocks[i].energy);
-      const auto v1 = add_weights(weights + weight_stride, blocks[i + 1].energy);
-      const auto v2 = add_weights(weights + 2 * weight_stride, blocks[i + 2].energy);
-      const auto v3 = add_weights(weights + 3 * weight_stride, blocks[i + 3].energy);
-      store_four_minima(v0, v1, v2, v3, minima + i);
-    }
-#endif
-#if HWY_TARGET != HWY_SCALAR
-    if (i < columns) {
-      const Tag d;
-      auto v1 = hn::Set(d, INT32_MAX);
-      auto v2 = v1;
-      const auto v0 = add_weights(weights, blocks[i].energy);
-      if (i + 1 < columns) v1 = add_weights(weights + weight_stride, blocks[i + 1].energy);
-      if (i + 2 < columns) v2 = add_weights(weights + 2 * weight_stride, blocks[i + 2].energy);
-      alignas(16) std::int32_t least[4];
-      store_four_minima(v0, v1, v2, v2, least);
-      const hn::CappedTag<std::int32_t, 4> four;
-      hn::BlendedStore(hn::Load(four, least), hn::FirstN(four, static_cast<std::size_t>(columns - i)), four,
-                       minima + i);
-      i = columns;
-    }
-#endif
-    for (; i < columns; ++i, weights += weight_stride) {
-      minima[i] = hn::GetLane(hn::MinOfLanes(Tag(), add_weights(weights, blocks[i].energy)));
-    }
-  }
-}
-
-/// Adds the kernel around every image of the pixel whose kernel meets the field.
-HWY_INLINE void add_images(EnergyField& field, const BlockKernel& kernel, int x, int y) {
-  const int radius = kernel.radius();
-  const auto [width, height] = field.size;
-  if (x >= radius && y >= radius && x + radius < width && y + radius < height) {
-    add_image(field, kernel, x, y);
-    return;
-  }
-  const int first_x = x - (x + radius) / width * width;
-  const int first_y = y - (y + radius) / height * height;
-  for (int image_y = first_y; image_y - radius < height; image_y += height) {
-    for (int image_x = first_x; image_x - radius < width; image_x += width) {
-      add_image(field, kernel, image_x, image_y);
-    }
-  }
-}
-
-/// The first position in the block that holds `value`.
+/// The first position in the block that holds `value`, which one does.
 HWY_INLINE int find_in_block(const std::int32_t* energy, std::int32_t value) {
   const Tag d;
   const auto wanted = hn::Set(d, value);
-  for (int i = 0;; i += kLanes) {
-    const auto found = hn::FindFirstTrue(d, hn::Eq(hn::Load(d, energy + i), wanted));
-    if (found >= 0) return i + static_cast<int>(found);
+  auto first = hn::Set(d, kBlockPixels);
+  for (int i = 0; i < kBlockPixels; i += kLanes) {
+    const auto found = hn::Eq(hn::Load(d, energy + i), wanted);
+    first = hn::Min(first, hn::IfThenElse(found, lanes_from(i), first));
   }
+  return hn::GetLane(hn::MinOfLanes(d, first));
 }
 
 class TileFiller {
@@ -169,27 +75,27 @@ class TileFiller {
              std::uint32_t* energy_when_set)
       : field_(field),
         kernel_(kernel),
-        tile_(tile),
         energy_when_set_(energy_when_set),
-        columns_(tile.columns),
-        rows_(tile.rows),
-        stride_(columns_ + 2 * field.reach_x + kLanes),
-        around_(static_cast<std::size_t>(stride_ * (rows_ + 2 * field.reach_y) + kLanes)),
-        least_(around_.size()),
-        least_of_others_(around_.size()),
-        pixels_(static_cast<std::size_t>(columns_ * rows_)),
-        leading_(static_cast<std::size_t>(columns_ * rows_ + kLanes)),
-        tied_(leading_.size()) {}
+        common_reach_(kernel.radius() / kBlockSide),
+        tile_(tile),
+        stride_(tile.columns + 2 * field.reach_x + kLanes),
+        around_(static_cast<std::size_t>(stride_ * (tile.rows + 2 * field.reach_y) + kLanes)),
+        least_of_row_(around_.size()),
+        candidates_(static_cast<std::size_t>(tile.columns * tile.rows + kLanes)),
+        pixels_(candidates_.size()) {}
 
   std::int64_t run(int rounds) {
     std::int64_t count = 0;
     for (int round = 0; round < rounds; ++round) {
-      const std::size_t leading = find_leading_blocks();
+      copy_minima();
+      const std::size_t leading = keep_leading(find_candidates());
       if (leading == 0) break;
       // Recording comes first: those writes go all over the tile and wait for memory together.
-      for (std::size_t i = 0; i < leading; ++i) pixels_[i] = mark_least_pixel(leading_[i]);
+      for (std::size_t i = 0; i < leading; ++i) mark(pixels_[i]);
       for (std::size_t i = 0; i < leading; ++i) add_images(field_, kernel_, pixels_[i].x, pixels_[i].y);
       count += static_cast<std::int64_t>(leading);
+      if (tile_.columns < field_.blocks_x) tile_.left = wrap(tile_.left - 1, field_.blocks_x);
+      if (tile_.rows < field_.blocks_y) tile_.top = wrap(tile_.top - 1, field_.blocks_y);
     }
     return count;
   }
@@ -198,16 +104,22 @@ class TileFiller {
   struct Pixel {
     int x;
     int y;
-    int in_block;
+    std::int32_t* energy;
+  };
+
+  /// Blocks before and after a pixel's own that it has in reach along one axis.
+  struct Reach {
+    int before;
+    int after;
   };
 
   /// Copies the minima of the tile and of all blocks in its reach, unrolling the torus.
   void copy_minima() {
     const int left = wrap(tile_.left - field_.reach_x, field_.blocks_x);
-    const int width = columns_ + 2 * field_.reach_x;
+    const int width = tile_.columns + 2 * field_.reach_x;
     int y = wrap(tile_.top - field_.reach_y, field_.blocks_y);
     std::int32_t* to = around_.data();
-    for (int row = 0; row < rows_ + 2 * field_.reach_y; ++row, to += stride_) {
+    for (int row = 0; row < tile_.rows + 2 * field_.reach_y; ++row, to += stride_) {
       const std::int32_t* from = field_.minimum.data() + std::int64_t{y} * field_.blocks_x;
       for (int x = left, done = 0; done < width; x = 0) {
         const int run = std::min(width - done, field_.blocks_x - x);
@@ -218,115 +130,138 @@ class TileFiller {
     }
   }
 
-  /// Lists in leading_ the blocks of the tile whose least pixel comes before those of all others in
-  /// reach; returns their number.
-  std::size_t find_leading_blocks() {
-    copy_minima();
+  /// Where the minimum of the tile's block at (column, row) is in around_, and its row's in
+  /// least_of_row_, which begins at the tile's first column.
+  std::ptrdiff_t offset_in_around(int column, int row) const {
+    return (row + field_.reach_y) * stride_ + field_.reach_x + column;
+  }
+
+  /// Lists in candidates_ the blocks of the tile with unset pixels that have no lesser minimum in the
+  /// reach common to all pixels of a block, as row << 16 | column; returns their number.
+  std::size_t find_candidates() {
     const Tag d;
-    const int reach_x = field_.reach_x;
-    const int reach_y = field_.reach_y;
-
-    // The least of each row of a window, with and without the block in its middle.
-    for (int row = 0; row < rows_ + 2 * reach_y; ++row) {
-      for (int x = 0; x < columns_; x += kLanes) {
-        const std::int32_t* at = around_.data() + row * stride_ + x;
-        auto others = hn::Min(hn::LoadU(d, at), hn::LoadU(d, at + 2 * reach_x));
-        for (int dx = 1; dx < reach_x; ++dx) {
-          others = hn::Min(others, hn::Min(hn::LoadU(d, at + dx), hn::LoadU(d, at + 2 * reach_x - dx)));
-        }
-        hn::StoreU(others, d, least_of_others_.data() + row * stride_ + x);
-        hn::StoreU(hn::Min(others, hn::LoadU(d, at + reach_x)), d, least_.data() + row * stride_ + x);
+    const int reach = common_reach_;
+    for (int row = -reach; row < tile_.rows + reach; ++row) {
+      const std::int32_t* from = around_.data() + offset_in_around(-reach, row);
+      std::int32_t* to = least_of_row_.data() + offset_in_around(0, row);
+      for (int x = 0; x < tile_.columns; x += kLanes) {
+        auto least = hn::LoadU(d, from + x);
+        for (int dx = 1; dx <= 2 * reach; ++dx) least = hn::Min(least, hn::LoadU(d, from + x + dx));
+        hn::StoreU(least, d, to + x);
       }
     }
-
-    std::size_t leading = 0;
-    std::size_t tied = 0;
+    std::size_t count = 0;
     const auto set_mark = hn::Set(d, kSetMark);
-    for (int row = 0; row < rows_; ++row) {
-      for (int x = 0; x < columns_; x += kLanes) {
-        const std::int32_t* at = least_.data() + row * stride_ + x;
-        auto others = hn::LoadU(d, least_of_others_.data() + (row + reach_y) * stride_ + x);
-        for (int dy = 0; dy < reach_y; ++dy) {
-          others = hn::Min(others, hn::Min(hn::LoadU(d, at + dy * stride_),
-                                           hn::LoadU(d, at + (2 * reach_y - dy) * stride_)));
+    for (int row = 0; row < tile_.rows; ++row) {
+      const std::int32_t* rows = least_of_row_.data() + offset_in_around(0, row - reach);
+      const std::int32_t* own = around_.data() + offset_in_around(0, row);
+      for (int x = 0; x < tile_.columns; x += kLanes) {
+        auto least = hn::Min(hn::LoadU(d, rows + x), set_mark);
+        for (int dy = 1; dy <= 2 * reach; ++dy) {
+          least = hn::Min(least, hn::LoadU(d, rows + dy * stride_ + x));
         }
-        const auto own = hn::LoadU(d, around_.data() + (row + reach_y) * stride_ + reach_x + x);
-        const auto open =
-            hn::And(hn::Lt(own, set_mark), hn::FirstN(d, static_cast<std::size_t>(columns_ - x)));
-        const auto blocks = hn::Iota(d, row * columns_ + x);
-        leading +=
-            hn::CompressStore(blocks, hn::And(hn::Lt(own, others), open), d, leading_.data() + leading);
-        tied += hn::CompressStore(blocks, hn::And(hn::Eq(own, others), open), d, tied_.data() + tied);
+        const auto in_tile = hn::Lt(hn::Iota(d, 0), hn::Set(d, tile_.columns - x));
+        const auto open = hn::And(in_tile, hn::Lt(hn::LoadU(d, own + x), set_mark));
+        const auto is_least = hn::And(open, hn::Eq(hn::LoadU(d, own + x), least));
+        count += hn::CompressStore(lanes_from(row << 16 | x), is_least, d, candidates_.data() + count);
       }
     }
-    // From positions in the tile to blocks of the field.
-    for (std::size_t i = 0; i < leading; ++i) leading_[i] = block_at(leading_[i]);
-    for (std::size_t i = 0; i < tied; ++i) {
-      const int block = block_at(tied_[i]);
-      if (leads_equals(block)) leading_[leading++] = block;
+    return count;
+  }
+
+  /// Lists in pixels_ those of the first `count` candidates' least pixels that lead; returns their
+  /// number.
+  std::size_t keep_leading(std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const int y = tile_.top + (candidates_[i] >> 16);
+      const int x = tile_.left + (candidates_[i] & 0xffff);
+      pixels_[i] = least_pixel(x - (x >= field_.blocks_x ? field_.blocks_x : 0),
+                               y - (y >= field_.blocks_y ? field_.blocks_y : 0));
+    }
+    std::size_t leading = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Pixel pixel = pixels_[i];
+      pixels_[leading] = pixel;
+      leading += leads(candidates_[i] & 0xffff, candidates_[i] >> 16, pixel) ? 1u : 0u;
     }
     return leading;
   }
 
-  /// Whether a block holds the lowest index of the minimum that it shares with others in reach, or, on
-  /// a torus so small that it is in reach of itself, with itself.
-  bool leads_equals(int block) const {
-    const Pixel own = least_pixel(block);
-    const int block_x = block % field_.blocks_x;
-    const int block_y = block / field_.blocks_x;
-    for (int dy = -field_.reach_y; dy <= field_.reach_y; ++dy) {
-      const int y = wrap(block_y + dy, field_.blocks_y);
-      for (int dx = -field_.reach_x; dx <= field_.reach_x; ++dx) {
-        const int other = y * field_.blocks_x + wrap(block_x + dx, field_.blocks_x);
-        if (minimum(other) != minimum(block)) continue;
-        const Pixel rival = least_pixel(other);
-        if (rival.y < own.y || (rival.y == own.y && rival.x < own.x)) return false;
+  /// Whether the least pixel of the tile's block at (column, row) comes before all blocks it has in
+  /// reach.
+  HWY_INLINE bool leads(int column, int row, const Pixel& pixel) const {
+    const Reach x = reach_of(pixel.x, field_.size.width, field_.reach_x);
+    const Reach y = reach_of(pixel.y, field_.size.height, field_.reach_y);
+    const std::int32_t* centre = around_.data() + offset_in_around(column, row);
+    const Tag d;
+    const auto own = hn::Set(d, *centre);
+    auto less = hn::MaskFromVec(hn::Zero(d));
+    auto equal = less;
+    for (int first = -field_.reach_x; first <= field_.reach_x; first += kLanes) {
+      const auto dx = lanes_from(first);
+      const auto in_reach =
+          hn::And(hn::Gt(dx, hn::Set(d, -x.before - 1)), hn::Lt(dx, hn::Set(d, x.after + 1)));
+      // Rows beyond the reach are replaced by the last within, so their number is always the same.
+      auto others =
+          hn::IfThenElse(hn::Eq(dx, hn::Zero(d)), hn::Set(d, INT32_MAX), hn::LoadU(d, centre + first));
+      for (int dy = 1; dy <= field_.reach_y; ++dy) {
+        others = hn::Min(others, hn::Min(hn::LoadU(d, centre - std::min(dy, y.before) * stride_ + first),
+                                         hn::LoadU(d, centre + std::min(dy, y.after) * stride_ + first)));
+      }
+      less = hn::Or(less, hn::And(in_reach, hn::Lt(others, own)));
+      equal = hn::Or(equal, hn::And(in_reach, hn::Eq(others, own)));
+    }
+    const bool none_less = hn::AllFalse(d, less);
+    if (HWY_UNLIKELY(none_less & !hn::AllFalse(d, equal))) return leads_equals(centre, pixel, x, y);
+    return none_less;
+  }
+
+  /// As leads(), where none is less but some may be equal: the lowest index leads. (A torus may be so
+  /// small that a pixel has itself in reach.)
+  HWY_NOINLINE bool leads_equals(const std::int32_t* centre, const Pixel& pixel, Reach x, Reach y) const {
+    for (int dy = -y.before; dy <= y.after; ++dy) {
+      for (int dx = -x.before; dx <= x.after; ++dx) {
+        if (centre[dy * stride_ + dx] != *centre) continue;
+        const Pixel rival = least_pixel(wrap((pixel.x >> kBlockShift) + dx, field_.blocks_x),
+                                        wrap((pixel.y >> kBlockShift) + dy, field_.blocks_y));
+        if (rival.y < pixel.y || (rival.y == pixel.y && rival.x < pixel.x)) return false;
       }
     }
     return true;
   }
 
-  /// The block of the field at a position of the tile.
-  int block_at(int position) const {
-    int y = tile_.top + position / columns_;
-    int x = tile_.left + position % columns_;
-    if (y >= field_.blocks_y) y -= field_.blocks_y;
-    if (x >= field_.blocks_x) x -= field_.blocks_x;
-    return y * field_.blocks_x + x;
+  /// What a pixel at `x` has in reach; where blocks are cut off at a seam in reach, the most that any has.
+  Reach reach_of(int x, int side, int most) const {
+    const int radius = kernel_.radius();
+    if (side % kBlockSide != 0 && (x < radius || x + radius >= side)) return {most, most};
+    const int block = x >> kBlockShift;
+    return {block - ((x - radius) >> kBlockShift), ((x + radius) >> kBlockShift) - block};
   }
-
-  std::int32_t minimum(int block) const { return field_.minimum[static_cast<std::size_t>(block)]; }
 
   /// The block's first pixel of least energy.
-  Pixel least_pixel(int block) const {
-    const int at = find_in_block(field_.blocks[static_cast<std::size_t>(block)].energy, minimum(block));
-    const int block_y = block / field_.blocks_x;
-    const int block_x = block - block_y * field_.blocks_x;
-    return {block_x * kBlockSide + at % kBlockSide, block_y * kBlockSide + at / kBlockSide, at};
+  Pixel least_pixel(int block_x, int block_y) const {
+    const auto block = static_cast<std::size_t>(block_y * field_.blocks_x + block_x);
+    std::int32_t* energy = field_.blocks[block].energy;
+    const int at = find_in_block(energy, field_.minimum[block]);
+    return {block_x * kBlockSide + at % kBlockSide, block_y * kBlockSide + at / kBlockSide, energy + at};
   }
 
-  Pixel mark_least_pixel(int block) {
-    const Pixel pixel = least_pixel(block);
-    std::int32_t& energy = field_.blocks[static_cast<std::size_t>(block)].energy[pixel.in_block];
+  void mark(const Pixel& pixel) {
     energy_when_set_[std::int64_t{pixel.y} * field_.size.width + pixel.x] =
-        static_cast<std::uint32_t>(energy);
-    energy += kSetMark;
-    return pixel;
+        static_cast<std::uint32_t>(*pixel.energy);
+    *pixel.energy += kSetMark;
   }
 
   EnergyField& field_;
   const BlockKernel& kernel_;
-  const BlockRect tile_;
   std::uint32_t* const energy_when_set_;
-  const int columns_;
-  const int rows_;
+  const int common_reach_;  // in blocks, of all pixels wherever they are in theirs
+  BlockRect tile_;
   const int stride_;
-  std::vector<std::int32_t> around_;           // the minima of the tile and of what is in its reach
-  std::vector<std::int32_t> least_;            // of a window's row
-  std::vector<std::int32_t> least_of_others_;  // of a window's row without its middle
-  std::vector<Pixel> pixels_;                  // that a round sets
-  std::vector<std::int32_t> leading_;
-  std::vector<std::int32_t> tied_;
+  std::vector<std::int32_t> around_;        // the minima of the tile and of what is in its reach
+  std::vector<std::int32_t> least_of_row_;  // of the blocks in common reach to the left and right
+  std::vector<std::int32_t> candidates_;
+  std::vector<Pixel> pixels_;
 };
 
 std::int64_t fill_tile_here(EnergyField& field, const BlockKernel& kernel, const BlockRect& tile, int rounds,
