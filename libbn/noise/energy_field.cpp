@@ -13,6 +13,12 @@ int reach_in_blocks(int side, int radius) {
   return side % kBlockSide == 0 ? blocks_for(radius) : 1 + blocks_for(radius - 1);
 }
 
+EnergyBlock block_of(std::int32_t energy) {
+  EnergyBlock block;
+  std::fill_n(block.energy, kBlockPixels, energy);
+  return block;
+}
+
 constexpr std::size_t kVectorRoom = 16;
 
 }  // namespace
@@ -23,20 +29,13 @@ EnergyField::EnergyField(Extent extent, int radius, std::int32_t energy)
       blocks_y(blocks_for(extent.height)),
       reach_x(reach_in_blocks(extent.width, radius)),
       reach_y(reach_in_blocks(extent.height, radius)),
-      blocks(static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y)),
-      minimum(blocks.size() + kVectorRoom, kSetMark) {
-  for (EnergyBlock& block : blocks) std::fill_n(block.energy, kBlockPixels, energy);
-}
+      blocks(static_cast<std::size_t>(blocks_x) * static_cast<std::size_t>(blocks_y), block_of(energy)),
+      minimum(blocks.size() + kVectorRoom, kSetMark) {}
 
 std::uint64_t EnergyField::bytes(Extent size) {
   const auto blocks = static_cast<std::uint64_t>(blocks_for(size.width)) *
                       static_cast<std::uint64_t>(blocks_for(size.height));
   return blocks * (sizeof(EnergyBlock) + sizeof(std::int32_t));
-}
-
-std::int32_t& EnergyField::at(int x, int y) {
-  const int block = y / kBlockSide * blocks_x + x / kBlockSide;
-  return blocks[static_cast<std::size_t>(block)].energy[y % kBlockSide * kBlockSide + x % kBlockSide];
 }
 
 void EnergyField::update_minima() {

@@ -32,7 +32,11 @@ struct EnergyField {
   /// The bytes that a field takes.
   static std::uint64_t bytes(Extent size);
 
-  std::int32_t& at(int x, int y);
+  std::int32_t& at(int x, int y) {
+    const int block = (y >> kBlockShift) * blocks_x + (x >> kBlockShift);
+    const int in_block = (y & (kBlockSide - 1)) * kBlockSide + (x & (kBlockSide - 1));
+    return blocks[static_cast<std::size_t>(block)].energy[in_block];
+  }
   /// Recomputes every block's minimum, after energies were written.
   void update_minima();
 

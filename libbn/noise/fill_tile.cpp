@@ -18,7 +18,7 @@
 // or two more on some sides: half of them do, one block in twenty-two. They are out of each other's
 // reach, so they can be set in any order.
 //
-// A tile moves while it is filled, by a block to the left and up after each round. Blocks on its right
+// A tile moves while it is filled, by a block to the left or up after each round. Blocks on its right
 // and lower side thus stay behind those on its left and upper side by a few rounds at most, and whoever
 // fills the next tile on the right or below meets pixels that have gone ahead and need not be waited
 // for. (Tiles that stand still end as islands whose shores all wait: half as many leading pixels a
@@ -94,8 +94,11 @@ class TileFiller {
       for (std::size_t i = 0; i < leading; ++i) mark(pixels_[i]);
       for (std::size_t i = 0; i < leading; ++i) add_images(field_, kernel_, pixels_[i].x, pixels_[i].y);
       count += static_cast<std::int64_t>(leading);
-      if (tile_.columns < field_.blocks_x) tile_.left = wrap(tile_.left - 1, field_.blocks_x);
-      if (tile_.rows < field_.blocks_y) tile_.top = wrap(tile_.top - 1, field_.blocks_y);
+      if (round % 2 == 0) {
+        if (tile_.columns < field_.blocks_x) tile_.left = wrap(tile_.left - 1, field_.blocks_x);
+      } else {
+        if (tile_.rows < field_.blocks_y) tile_.top = wrap(tile_.top - 1, field_.blocks_y);
+      }
     }
     return count;
   }

@@ -20,10 +20,10 @@ struct BlockRect {
 void add_kernel(EnergyField& field, const BlockKernel& kernel, int x, int y);
 
 /// In each round, sets the pixels within `tile` that are the least (energy, index) of all unset pixels
-/// in reach; then the tile moves a block to the left and up, along the axes that it does not span. Ends
-/// early when there is no such pixel: the tile is full or waits for its neighbours. Writes the energy of
-/// each pixel when it was set to energy_when_set[y * width + x]; returns how many were set. Writes and
-/// reads no energy and no minimum farther than the reach of a kernel from where the tile has been.
+/// in reach; then the tile moves a block, to the left and up in turn, along the axes that it does not
+/// span. Ends early when there is no such pixel: the tile is full or waits for its neighbours. Writes the
+/// energy of each pixel when it was set to energy_when_set[y * width + x]; returns how many were set. Writes
+/// and reads no energy and no minimum farther than the reach of a kernel from where the tile has been.
 std::int64_t fill_tile(EnergyField& field, const BlockKernel& kernel, const BlockRect& tile, int rounds,
                        std::uint32_t* energy_when_set);
 

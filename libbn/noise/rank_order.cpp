@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace bn {
@@ -20,13 +22,13 @@ struct Entry {
 
 /// Sorts by value and keeps the order of equal ones: two rounds of counting sort, `bits` (<= 22) low
 /// bits.
-void sort_bucket(Entry* entries, std::size_t count, int bits, std::vector<Entry>& scratch) {
-  scratch.resize(std::max(scratch.size(), count));
+void sort_bucket(Entry* entries, std::size_t count, int bits) {
+  const auto scratch = std::make_unique_for_overwrite<Entry[]>(count);
   const int half = (bits + 1) / 2;
   const std::uint32_t mask = (1u << half) - 1;
   std::array<std::uint32_t, 2048> starts;
   Entry* from = entries;
-  Entry* to = scratch.data();
+  Entry* to = scratch.get();
   for (int round = 0; round < 2; ++round, std::swap(from, to)) {
     const int shift = round * half;
     std::fill_n(starts.begin(), mask + 1, 0u);
@@ -75,7 +77,7 @@ void replace_by_ranks(Grid<std::uint32_t>& values, const Execution& execution) {
   }
   bucket_starts[kBuckets] = start;
 
-  std::vector<Entry> entries(start);
+  const auto entries = std::make_unique_for_overwrite<Entry[]>(start);
   parallel_for(execution, static_cast<std::int64_t>(chunks), [&](std::int64_t chunk) {
     auto& next = starts[static_cast<std::size_t>(chunk)];
     for_chunk(chunk, [&](std::size_t i) {
@@ -85,8 +87,7 @@ void replace_by_ranks(Grid<std::uint32_t>& values, const Execution& execution) {
   parallel_for(execution, kBuckets, [&](std::int64_t bucket) {
     const std::uint32_t begin = bucket_starts[static_cast<std::size_t>(bucket)];
     const std::uint32_t end = bucket_starts[static_cast<std::size_t>(bucket) + 1];
-    std::vector<Entry> scratch;
-    sort_bucket(entries.data() + begin, end - begin, low_bits, scratch);
+    sort_bucket(entries.get() + begin, end - begin, low_bits);
     for (std::uint32_t rank = begin; rank < end; ++rank) values[entries[rank].index] = rank;
   });
 }

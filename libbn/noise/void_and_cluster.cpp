@@ -66,18 +66,35 @@ void check(const VoidAndClusterOptions& options) {
   }
 }
 
-std::int32_t start_energy(std::uint64_t seed, std::uint64_t index) {
-  const std::uint64_t four = random_bits(seed, kStartStream, index / 4);
-  return static_cast<std::int32_t>((four >> (16 * (index % 4))) % kStartEnergyLimit);
-}
+/// The start energies of pixels in the order of their indices.
+class StartEnergies {
+ public:
+  StartEnergies(std::uint64_t seed, std::uint64_t first)
+      : seed_(seed), index_(first), four_(bits() >> 16 * (first % 4)) {}
 
-/// Calls body(x, y, index) for every pixel, rows in parallel.
+  std::int32_t next() {
+    const auto energy = static_cast<std::int32_t>(four_ % kStartEnergyLimit);
+    four_ >>= 16;
+    if (++index_ % 4 == 0) four_ = bits();
+    return energy;
+  }
+
+ private:
+  std::uint64_t bits() const { return random_bits(seed_, kStartStream, index_ / 4); }
+
+  std::uint64_t seed_;
+  std::uint64_t index_;
+  std::uint64_t four_;
+};
+
+/// Calls body(x, y, index, start energy) for every pixel, rows in parallel.
 template <class Body>
-void for_each_pixel(Extent size, const Execution& execution, const Body& body) {
-  parallel_for(execution, size.height, [&](std::int64_t y) {
-    for (int x = 0; x < size.width; ++x) {
-      body(x, static_cast<int>(y), static_cast<std::size_t>(y * size.width + x));
-    }
+void for_each_pixel(const VoidAndClusterOptions& options, const Execution& execution, const Body& body) {
+  const auto [width, height] = options.size;
+  parallel_for(execution, height, [&](std::int64_t y) {
+    auto index = static_cast<std::size_t>(y * width);
+    StartEnergies start(options.seed, index);
+    for (int x = 0; x < width; ++x, ++index) body(x, static_cast<int>(y), index, start.next());
   });
 }
 
@@ -86,9 +103,8 @@ void for_each_pixel(Extent size, const Execution& execution, const Body& body) {
 Grid<std::uint32_t> filling_order(const VoidAndClusterOptions& options, const GaussianKernel& kernel,
                                   const Execution& execution, ProgressMeter& meter) {
   EnergyField field(options.size, kernel.radius(), kSetMark);
-  for_each_pixel(options.size, execution, [&](int x, int y, std::size_t index) {
-    field.at(x, y) = start_energy(options.seed, index);
-  });
+  for_each_pixel(options, execution,
+                 [&](int x, int y, std::size_t, std::int32_t start) { field.at(x, y) = start; });
   return void_order(std::move(field), BlockKernel(kernel, 1), options.size.area(), execution, meter);
 }
 
@@ -100,8 +116,8 @@ void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel&
   // carry the mark.
   const std::int32_t all = kernel.sum() + kStartEnergyLimit - 1;
   EnergyField field(options.size, kernel.radius(), kSetMark + all);
-  for_each_pixel(options.size, execution, [&](int x, int y, std::size_t index) {
-    field.at(x, y) -= start_energy(options.seed, index) + (ranks[index] < initial ? kSetMark : 0);
+  for_each_pixel(options, execution, [&](int x, int y, std::size_t index, std::int32_t start) {
+    field.at(x, y) -= start + (ranks[index] < initial ? kSetMark : 0);
   });
   const BlockKernel negative(kernel, -1);
   for (int y = 0; y < options.size.height; ++y) {
@@ -112,9 +128,9 @@ void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel&
   }
   const Grid<std::uint32_t> removed =
       void_order(std::move(field), BlockKernel(kernel, 1), initial, execution, meter);
-  for_each_pixel(options.size, execution, [&](int, int, std::size_t index) {
+  for (std::size_t index = 0; index < ranks.count(); ++index) {
     if (ranks[index] < initial) ranks[index] = initial - 1 - removed[index];
-  });
+  }
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 // A sweep visits tiles that cover the torus, each small enough for the second-level cache, row by row
 // and from left to right: a tile moves to the left and up while it is filled, so its neighbours there
 // should have gone ahead. Tiles whose visits are out of each other's reach form a wave and are filled by
-// threads at once; a wave begins when the one before has ended. In a row every second tile of the row
-// below is in the same wave, and where there are many rows they are cut into chains that advance side
-// by side.
+// threads at once; a wave begins when the one before has ended. Each row of tiles follows two tiles
+// behind the row above, and many rows are cut into chains that advance side by side; so are the tiles of
+// a long row where there are few rows.
 
 #include "noise/void_order.h"
 
@@ -20,48 +20,81 @@
 namespace bn {
 namespace {
 
-// 56x56 blocks are 784 KiB of energies. More rounds a visit would need fewer visits, but then the tile,
-// which moves by a block a round, must be larger for what follows to hold.
+// 56x56 blocks are 784 KiB of energies. A visit of more rounds sets more pixels for the memory it fetches,
+// but moves by more blocks, half a block a round along each axis.
 constexpr int kTileBlocks = 56;
-constexpr int kRounds = 32;
+constexpr int kRounds = 76;
 // The visits of two tiles with a third between them are out of reach of each other: what one writes,
 // as far as its kernels reach, the other does not read, as far as its kernels reach.
-static_assert(kRounds - 1 + 2 * (1 + kMaxKernelRadius / kBlockSide) <= kTileBlocks);
-
-constexpr int kRowsOfChain = 4;
+static_assert(kRounds / 2 + 2 * (1 + kMaxKernelRadius / kBlockSide) <= kTileBlocks);
 
 using Wave = std::vector<BlockRect>;
 
-/// The waves of one sweep.
+/// One axis cut into tiles, and the tiles into chains.
+struct Axis {
+  Axis(int blocks_, int tiles_, int chains_) : blocks(blocks_), tiles(tiles_), chains(chains_) {}
+
+  int first_block(int tile) const { return static_cast<int>(std::int64_t{blocks} * tile / tiles); }
+  int first_tile(int chain) const { return tiles * chain / chains; }
+  int longest_chain() const { return (tiles + chains - 1) / chains; }
+  /// The tile that a chain has come to, or -1 where it is at its end.
+  int tile_at(int chain, int step) const {
+    const int tile = first_tile(chain) + step;
+    return tile < first_tile(chain + 1) ? tile : -1;
+  }
+
+  int blocks;
+  int tiles;
+  int chains;
+};
+
+/// The waves of one sweep: each tile comes after its neighbours on the left and above, and not in one
+/// wave with any neighbour on the torus.
 std::vector<Wave> waves_of_sweep(const EnergyField& field) {
+  constexpr int kTilesOfChain = 4;
   const int columns = std::max(1, field.blocks_x / kTileBlocks);
   const int rows = std::max(1, field.blocks_y / kTileBlocks);
-  const int chains = std::max(1, rows / kRowsOfChain);
-  const auto first = [](int i, int parts, int whole) {
-    return static_cast<int>(std::int64_t{whole} * i / parts);
-  };
-  constexpr int kNone = -1;
-  std::vector<int> wave_of(static_cast<std::size_t>(columns * rows), kNone);
-  const auto wave_at = [&](int x, int y) -> int& {
-    return wave_of[static_cast<std::size_t>(wrap(y, rows) * columns + wrap(x, columns))];
+  const Axis y(field.blocks_y, rows, std::max(1, rows / kTilesOfChain));
+  const Axis x(field.blocks_x, columns, rows < kTilesOfChain ? std::max(1, columns / kTilesOfChain) : 1);
+
+  std::vector<int> wave_of(static_cast<std::size_t>(columns * rows), -1);
+  const auto wave_at = [&](int column, int row) -> int& {
+    return wave_of[static_cast<std::size_t>(wrap(row, rows) * columns + wrap(column, columns))];
   };
   std::vector<Wave> waves;
-  for (int step = 0; step < rows; ++step) {
-    for (int chain = 0; chain < chains; ++chain) {
-      const int y = first(chain, chains, rows) + step;
-      if (y >= first(chain + 1, chains, rows)) continue;
-      for (int x = 0; x < columns; ++x) {
-        int wave = 0;
-        for (int dy = -1; dy <= 1; ++dy) {
-          for (int dx = -1; dx <= 1; ++dx) wave = std::max(wave, wave_at(x + dx, y + dy) + 1);
+  const auto add = [&](int column, int row) {
+    const auto any_neighbour = [&](auto&& is_true) {
+      for (int y_beside = row - 1; y_beside <= row + 1; ++y_beside) {
+        for (int x_beside = column - 1; x_beside <= column + 1; ++x_beside) {
+          if (is_true(x_beside, y_beside)) return true;
         }
-        wave_at(x, y) = wave;
-        if (wave == static_cast<int>(waves.size())) waves.emplace_back();
-        const int left = first(x, columns, field.blocks_x);
-        const int top = first(y, rows, field.blocks_y);
-        waves[static_cast<std::size_t>(wave)].push_back({left, top,
-                                                         first(x + 1, columns, field.blocks_x) - left,
-                                                         first(y + 1, rows, field.blocks_y) - top});
+      }
+      return false;
+    };
+    int wave = 0;
+    any_neighbour([&](int x_beside, int y_beside) {
+      const bool across_seam = x_beside < 0 || x_beside >= columns || y_beside < 0 || y_beside >= rows;
+      if (!across_seam) wave = std::max(wave, wave_at(x_beside, y_beside) + 1);
+      return false;
+    });
+    while (any_neighbour([&](int x_beside, int y_beside) { return wave_at(x_beside, y_beside) == wave; })) {
+      ++wave;
+    }
+    wave_at(column, row) = wave;
+    if (wave >= static_cast<int>(waves.size())) waves.resize(static_cast<std::size_t>(wave) + 1);
+    const int left = x.first_block(column);
+    const int top = y.first_block(row);
+    waves[static_cast<std::size_t>(wave)].push_back(
+        {left, top, x.first_block(column + 1) - left, y.first_block(row + 1) - top});
+  };
+  for (int step_y = 0; step_y < y.longest_chain(); ++step_y) {
+    for (int chain_y = 0; chain_y < y.chains; ++chain_y) {
+      for (int step_x = 0; step_x < x.longest_chain(); ++step_x) {
+        for (int chain_x = 0; chain_x < x.chains; ++chain_x) {
+          const int column = x.tile_at(chain_x, step_x);
+          const int row = y.tile_at(chain_y, step_y);
+          if (column >= 0 && row >= 0) add(column, row);
+        }
       }
     }
   }

@@ -74,7 +74,7 @@ TEST(Contract, StopsWhenAsked) {
 TEST(Contract, ReportsProgress) {
   for (const int threads : {1, 3}) {
     std::vector<double> reports;
-    void_and_cluster({.size = {256, 256}, .initial_density = 0.2},
+    void_and_cluster({.size = {1024, 512}, .initial_density = 0.2},
                      {.threads = threads, .progress = [&](double done) { reports.push_back(done); }});
     EXPECT_TRUE(std::is_sorted(reports.begin(), reports.end()));
     EXPECT_GE(reports.size(), 20u);
