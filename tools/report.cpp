@@ -16,6 +16,12 @@ struct Settings {
   bool json = false;
 };
 
+std::string verdict_of(const ReportSummary& summary) {
+  const std::string judged = summary.failed == 0 ? "all within their thresholds"
+                                                 : fmt::format("{} miss a threshold", summary.failed);
+  return summary.not_judged == 0 ? judged : fmt::format("{}, {} not judged", judged, summary.not_judged);
+}
+
 void run(const Settings& settings, Session& session) {
   const ReportSummary summary = write_report(settings.options, session.execution);
   if (settings.json) {
@@ -24,6 +30,7 @@ void run(const Settings& settings, Session& session) {
                                  {"retarget_sets", summary.retarget_sets},
                                  {"volumes", summary.volumes},
                                  {"failed", summary.failed},
+                                 {"not_judged", summary.not_judged},
                                  {"notes", summary.notes}},
                                 true);
     return;
@@ -31,9 +38,7 @@ void run(const Settings& settings, Session& session) {
   for (const std::string& note : summary.notes) session.progress.note(note);
   session.output.write(fmt::format("{}: {} textures, {} retarget sets, {} volumes; {}\n",
                                    settings.options.out.string(), summary.masks, summary.retarget_sets,
-                                   summary.volumes,
-                                   summary.failed == 0 ? "all within their thresholds"
-                                                       : fmt::format("{} miss a threshold", summary.failed)));
+                                   summary.volumes, verdict_of(summary)));
 }
 
 }  // namespace

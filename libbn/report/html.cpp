@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
 namespace bn::report {
 namespace {
+
+/// What a page of 400 pixels has for a picture in a card.
+constexpr int kNarrowPage = 330;
 
 /// Length of the well-formed UTF-8 sequence that `text` begins with, 0 if there is none (Unicode 15, table
 /// 3-7).
@@ -109,12 +113,15 @@ std::string number(double value) {
 int scale_for(int pixels, int wanted) { return std::max(1, wanted / std::max(1, pixels)); }
 
 std::string figure(const Picture& picture) {
-  const int width = picture.image.size.width * picture.scale;
+  const int pixels = picture.image.size.width;
+  const int narrow_scale = std::min(picture.scale, kNarrowPage / pixels);
   return fmt::format(
-      "<figure class=\"picture\" style=\"--w:{}px\"><label class=\"zoom\"><input type=\"checkbox\" "
+      "<figure class=\"picture{}\" style=\"--w:{}px;--n:{}px\"><label class=\"zoom\"><input "
+      "type=\"checkbox\" "
       "aria-label=\"Show larger\">{}</label><figcaption><b>{}</b> {}</figcaption></figure>\n",
-      width, image_element(picture.image, picture.scale, "picture; its caption says what it shows"),
-      picture.title, picture.caption);
+      narrow_scale == 0 ? " cut" : "", pixels * picture.scale, pixels * std::max(1, narrow_scale),
+      image_element(picture.image, picture.scale, "picture; its caption says what it shows"), picture.title,
+      picture.caption);
 }
 
 std::string thumbnail(const Image& image, int scale, std::string_view alt, std::string_view label) {

@@ -20,10 +20,11 @@ std::string base64(std::span<const unsigned char> bytes);
 std::string number(double value);
 std::string whole(std::int64_t value);
 
-/// A picture whose pixels stay square. A click shows it larger.
+/// A picture whose pixels stay square and equal: on a narrow page the scale is a lesser whole one, and a
+/// picture too wide even at 1 is cut. A click shows it larger.
 struct Picture {
   Image image;
-  int scale = 1;        ///< page pixels a pixel
+  int scale = 1;        ///< page pixels a pixel, on a wide page
   std::string title;    ///< HTML
   std::string caption;  ///< HTML; empty for small ones
 };

@@ -25,9 +25,7 @@ std::string filled(std::string_view html, const std::vector<std::string>& svg, s
     const auto index =
         first + static_cast<std::size_t>(std::atoi(std::string(html.substr(at + 1, end - at - 1)).c_str()));
     if (index < svg.size()) {
-      result += fmt::format(
-          "<svg class=\"chart\" viewBox=\"0 0 520 280\" role=\"img\" aria-label=\"plot\">\n{}</svg>\n",
-          svg[index]);
+      result += svg[index];
     } else {
       result += "<p class=\"missing\">Not drawn: see the notes.</p>";
     }
@@ -56,7 +54,7 @@ std::string comparison_of(const Page& page, const std::vector<std::string>& svg,
   if (!page.common_power.curves.empty()) {
     plots = plot_figure(page.common_power, 0, "Radial power", "Mean over annuli, against white noise.") +
             plot_figure(page.common_anisotropy, 1, "Anisotropy",
-                        "In dB; 0 dB is that of a single isotropic texture.");
+                        "In dB; one isotropic texture scatters about 0.");
   }
   return filled(fmt::format("<section><h2>Side by side</h2>\n<div class=\"cards\">{}</div>\n<div "
                             "class=\"plots\">{}</div></section>\n",

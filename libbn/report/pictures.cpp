@@ -141,12 +141,12 @@ Grid<double> photograph(Extent size) {
   return picture;
 }
 
-Image dithered(const Grid<double>& picture, const Grid<double>& value) {
+Grid<std::uint8_t> dithered(const Grid<double>& picture, const Grid<double>& value) {
   Grid<std::uint8_t> bits(picture.size());
   for (int y = 0; y < bits.height(); ++y) {
     for (int x = 0; x < bits.width(); ++x) bits(x, y) = picture(x, y) > value.torus(x, y) ? 255 : 0;
   }
-  return grey_image(bits);
+  return bits;
 }
 
 }  // namespace bn::report

@@ -30,7 +30,8 @@ Image moves_legend(int radius);
 /// 0..1.
 Grid<double> photograph(Extent size);
 
-/// One bit a pixel: white where the photograph is above the mask. `value`: the mask's values, 0..1, repeated.
-Image dithered(const Grid<double>& picture, const Grid<double>& value);
+/// 0 or 255 a pixel: white where the photograph is above the mask. `value`: the mask's values, 0..1,
+/// repeated.
+Grid<std::uint8_t> dithered(const Grid<double>& picture, const Grid<double>& value);
 
 }  // namespace bn::report

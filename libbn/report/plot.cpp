@@ -24,28 +24,42 @@ constexpr std::string_view kCommon =
 #include "report/common.gnuplot.inc"
     ;
 
+/// Page pixels of a drawing, as wide as the columns it stands in: text keeps its size.
+struct PlotSize {
+  int width, height;
+};
+constexpr PlotSize kHalfOfThePage{520, 280}, kThirdOfThePage{360, 230};
+
 struct StyleFile {
   std::string_view script;
   std::string_view drawn_with;
+  PlotSize size;
 };
 
+/// In the order of PlotStyle.
 const StyleFile& style_file(PlotStyle style) {
-  static constexpr std::array<StyleFile, 5> kFiles{{
+  static constexpr std::array<StyleFile, 7> kFiles{{
       {
 #include "report/power.gnuplot.inc"
-          , "lines"},
+          , "lines", kHalfOfThePage},
+      {
+#include "report/power_in_time.gnuplot.inc"
+          , "linespoints", kHalfOfThePage},
       {
 #include "report/anisotropy.gnuplot.inc"
-          , "lines"},
+          , "lines", kThirdOfThePage},
       {
 #include "report/autocorrelation.gnuplot.inc"
-          , "linespoints"},
+          , "linespoints", kThirdOfThePage},
       {
 #include "report/histogram.gnuplot.inc"
-          , "steps"},
+          , "steps", kThirdOfThePage},
+      {
+#include "report/residual.gnuplot.inc"
+          , "lines", kThirdOfThePage},
       {
 #include "report/moves.gnuplot.inc"
-          , "boxes"},
+          , "boxes", kThirdOfThePage},
   }};
   return kFiles[static_cast<std::size_t>(style)];
 }
@@ -70,7 +84,8 @@ std::string script_of(const std::vector<Plot>& plots) {
   auto to = std::back_inserter(script);
   for (const Plot& plot : plots) {
     const StyleFile& file = style_file(plot.style);
-    fmt::format_to(to, "reset session\n{}\n{}\n", kCommon, file.script);
+    fmt::format_to(to, "reset session\nplot_width = {}\nplot_height = {}\n{}\n{}\n", file.size.width,
+                   file.size.height, kCommon, file.script);
     std::string drawn;
     for (std::size_t c = 0; c < plot.curves.size(); ++c) {
       const Curve& curve = plot.curves[c];
@@ -185,9 +200,13 @@ Drawing draw(const std::vector<Plot>& plots, std::stop_token stop) {
   for (auto begin = rest.find("<svg"); begin != std::string_view::npos; begin = rest.find("<svg")) {
     const auto end = rest.find(kEnd, begin);
     if (end == std::string_view::npos) break;
+    if (drawing.svg.size() == plots.size()) break;
     // The opening tag is ours: gnuplot's has its size in pixels.
+    const PlotSize size = style_file(plots[drawing.svg.size()].style).size;
     const auto tag_end = rest.find('>', begin);
-    drawing.svg.push_back(inlined(rest.substr(tag_end + 1, end - tag_end - 1)));
+    drawing.svg.push_back(fmt::format(
+        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"plot\">\n{}</svg>\n",
+        size.width, size.height, inlined(rest.substr(tag_end + 1, end - tag_end - 1))));
     rest.remove_prefix(end + kEnd.size());
   }
   if (drawing.svg.size() != plots.size()) {

@@ -8,7 +8,8 @@
 
 namespace bn::report {
 
-enum class PlotStyle { power, anisotropy, autocorrelation, histogram, moves };
+/// One file of scripts/plots each.
+enum class PlotStyle { power, power_in_time, anisotropy, autocorrelation, histogram, residual, moves };
 
 /// What a curve stands for decides its colour and line; see scripts/plots/common.gnuplot.
 enum class Role { white, reference, texture };
@@ -34,7 +35,7 @@ struct Plot {
 std::string to_csv(const Plot& plot);
 
 struct Drawing {
-  std::vector<std::string> svg;  ///< one a plot, to stand in the page; empty if gnuplot did not draw
+  std::vector<std::string> svg;  ///< one element a plot; empty if gnuplot did not draw
   std::string failure;           ///< then why
 };
 

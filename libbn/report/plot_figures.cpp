@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "bn/noise.h"
 #include "report/html.h"
 #include "report/section.h"
@@ -9,7 +11,7 @@
 namespace bn::report {
 namespace {
 
-constexpr int kReferenceMasks = 4;
+constexpr int kReferenceMasks = 10;
 constexpr std::uint64_t kReferenceSeed = 1001;
 
 /// The line of white noise, over all frequencies.
@@ -38,19 +40,27 @@ std::string plot_figure(const Plot& plot, std::size_t index, std::string_view ti
 }
 
 Reference make_reference(const Execution& execution) {
-  std::optional<PowerSpectrum> average;
-  for (int i = 0; i < kReferenceMasks; ++i) {
+  std::vector<PowerSpectrum> powers(kReferenceMasks);
+  parallel_for(execution, kReferenceMasks, [&](std::int64_t i) {
+    const Execution single{.threads = 1, .stop = execution.stop};
     const auto rank = void_and_cluster(
-        {.size = {128, 128}, .seed = kReferenceSeed + static_cast<std::uint64_t>(i)}, execution);
-    const std::vector<double> values(rank.begin(), rank.end());
-    PowerSpectrum power = power_spectrum(values, {128, 128}, execution);
-    if (average) {
-      accumulate(*average, power);
-    } else {
-      average = std::move(power);
+        {.size = {128, 128}, .seed = kReferenceSeed + static_cast<std::uint64_t>(i)}, single);
+    powers[static_cast<std::size_t>(i)] =
+        power_spectrum(std::vector<double>(rank.begin(), rank.end()), {128, 128}, single);
+  });
+  PowerSpectrum average = powers.front();
+  Reference reference;
+  reference.anisotropy_db.resize(radial_power(average).power.size());
+  for (std::size_t i = 0; i < powers.size(); ++i) {
+    if (i > 0) accumulate(average, powers[i]);
+    const RadialCurve one = radial_power(powers[i]);
+    for (std::size_t j = 0; j < one.anisotropy_db.size(); ++j) {
+      reference.anisotropy_db[j] += std::pow(10.0, 0.1 * one.anisotropy_db[j]) / kReferenceMasks;
     }
   }
-  return {radial_power(*average)};
+  for (double& a : reference.anisotropy_db) a = 10.0 * std::log10(a);
+  reference.radial = radial_power(average);
+  return reference;
 }
 
 Plot power_plot(std::string file_name, const Reference& reference) {
@@ -62,12 +72,13 @@ Plot power_plot(std::string file_name, const Reference& reference) {
       {white(1.0), {"good masks", Role::reference, 0, reference.radial.frequency, reference.radial.power}}};
 }
 
-Plot anisotropy_plot(std::string file_name, const Reference&) {
-  return {PlotStyle::anisotropy,
-          std::move(file_name),
-          "frequency_cycles_per_pixel",
-          "anisotropy_db",
-          {white(0.0)}};
+Plot anisotropy_plot(std::string file_name, const Reference& reference) {
+  return {
+      PlotStyle::anisotropy,
+      std::move(file_name),
+      "frequency_cycles_per_pixel",
+      "anisotropy_db",
+      {white(0.0), {"good masks", Role::reference, 0, reference.radial.frequency, reference.anisotropy_db}}};
 }
 
 }  // namespace bn::report

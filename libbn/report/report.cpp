@@ -31,16 +31,30 @@ void check_options(const ReportOptions& options) {
   }
   check_text_writable(options.out);
   if (options.csv_dir.empty()) return;
-  std::error_code error;
-  fs::create_directory(options.csv_dir, error);
-  if (error || !fs::is_directory(options.csv_dir)) {
+  // The folder is made when there is something to put into it; until then its name must be as free as a
+  // file's.
+  std::error_code ignored;
+  const bool exists = fs::is_directory(options.csv_dir, ignored);
+  const fs::path bare = options.csv_dir.has_filename() ? options.csv_dir : options.csv_dir.parent_path();
+  check_text_writable(exists ? options.csv_dir / "curves.csv" : bare);
+  if (!exists && fs::exists(bare, ignored)) {
     throw Error({.code = ErrorCode::io,
-                 .what = error ? fmt::format("cannot be made: {}", error.message()) : "is no folder",
+                 .what = "is no folder",
                  .where = options.csv_dir.string(),
                  .limit = "",
                  .remedy = "choose another folder"});
   }
-  check_text_writable(options.csv_dir / "curves.csv");
+}
+
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directory(folder, error);
+  if (!error) return;
+  throw Error({.code = ErrorCode::io,
+               .what = fmt::format("cannot be made: {}", error.message()),
+               .where = folder.string(),
+               .limit = "",
+               .remedy = "choose another folder"});
 }
 
 /// A name for files: letters and digits of `name`, the rest as single hyphens; never one that is in `taken`.
@@ -136,6 +150,7 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
   for (const report::Section& section : page.sections) {
     plots.insert(plots.end(), section.plots.begin(), section.plots.end());
     summary.failed += section.failed;
+    summary.not_judged += section.not_judged;
   }
   if (options.compare) {
     plots.push_back(page.common_power);
@@ -144,6 +159,7 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
   const report::Drawing drawing = report::draw(plots, execution.stop);
   throw_if_stopped(execution);
   if (!drawing.failure.empty()) page.notes.push_back(drawing.failure);
+  if (!options.csv_dir.empty()) make_folder(options.csv_dir);
   write_text_file(options.out, report::page_html(page, drawing.svg));
 
   if (!options.csv_dir.empty()) {

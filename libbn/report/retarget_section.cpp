@@ -15,7 +15,7 @@ namespace bn::report {
 namespace {
 
 constexpr std::array<int, 3> kRepeats{1, 8, 64};
-constexpr int kMostShown = 512;
+constexpr int kSpectrumShown = 340;  ///< pixels a side: what a telephone shows whole
 
 RetargetOptions options_of(const Metadata& metadata, Offset motion) {
   RetargetOptions options;
@@ -152,11 +152,10 @@ std::string heat_map(const RetargetSet& set) {
     rows += "</tr>\n";
   }
   return fmt::format(
-      "<div class=\"strip\"><h4>Energy by motion</h4><p>Across: motion in x; down: motion in y. From {} to "
-      "{}. {}</p><div "
-      "class=\"wide\"><table class=\"heat\"><tbody>{}</tbody></table></div></div>\n",
+      "<figure class=\"heatmap\"><figcaption><b>Energy by motion</b> Across in x, down in y; from {} to {}. "
+      "{}</figcaption><div class=\"wide\"><table class=\"heat\"><tbody>{}</tbody></table></div></figure>\n",
       whole(low), whole(high),
-      all_optimal ? "Every lower bound equals its energy: all are proven optimal."
+      all_optimal ? "Every lower bound equals its energy: all proven optimal."
                   : "The small figure is the lower bound where it is not the energy itself.",
       rows);
 }
@@ -199,11 +198,15 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
 
   // --- pictures ---
   const double start = static_cast<double>(tile.record.start_energy);
-  section.plots.push_back(moves_plot(set, tile, file_name + "-moves"));
-  std::string gallery, plots;
+  std::string gallery, dithers, main_plot, plots;
+  const auto add_plot = [&](Plot plot, std::string_view title, const std::string& caption) {
+    section.plots.push_back(std::move(plot));
+    return plot_figure(section.plots.back(), section.plots.size() - 1, title, caption);
+  };
   double mean_length = 0.0;
-  for (const Offset r : tile.move)
+  for (const Offset r : tile.move) {
     mean_length += std::hypot(r.x - tile.record.motion.x, r.y - tile.record.motion.y);
+  }
   mean_length /= static_cast<double>(tile.move.count());
   gallery += figure({.image = moves_image(tile.move, tile.record.motion, *metadata.radius),
                      .scale = scale_for(size.width, 256),
@@ -216,9 +219,9 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
                      .title = "Their legend.",
                      .caption = fmt::format("The colour of each move within {} pixels; the middle stays.",
                                             *metadata.radius)});
-  plots += plot_figure(section.plots[0], 0, "Lengths of the moves",
-                       fmt::format("Share of the pixels, by {} length, motion taken out.",
-                                   metadata.reach == "euclidean" ? "Euclidean" : "Chebyshev"));
+  plots += add_plot(moves_plot(set, tile, file_name + "-moves"), "Lengths of the moves",
+                    fmt::format("Share of the pixels, by {} length, motion taken out.",
+                                metadata.reach == "euclidean" ? "Euclidean" : "Chebyshev"));
 
   if (set.levels) {
     const Grid<double> residual = residual_of(*set.levels, tile.move, *metadata.step);
@@ -235,49 +238,47 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
                                 number(largest), number(sum / static_cast<double>(residual.count())))});
     const std::vector<double> values(residual.begin(), residual.end());
     const PowerSpectrum residual_power = power_spectrum(values, shape, execution);
-    const Image picture = spectrum_image(residual_power, kMostShown);
-    gallery += figure({.image = picture,
-                       .scale = scale_for(picture.size.width, 256),
-                       .title = "Its spectrum.",
-                       .caption = "Power in decibels, −50 (black) to +12.5 dB (white)."});
+    const auto spectrum_of = [](const PowerSpectrum& power, std::string title, std::string caption) {
+      const Image picture = spectrum_image(power, kSpectrumShown);
+      return figure({.image = picture,
+                     .scale = scale_for(picture.size.width, 256),
+                     .title = std::move(title),
+                     .caption = std::move(caption)});
+    };
+    gallery +=
+        spectrum_of(residual_power, "Its spectrum.", "Decibels, black −50, white +12.5, white noise 0.");
     const RadialCurve residual_curve = radial_power(residual_power);
-    Plot residual_plot{PlotStyle::power, file_name + "-residual", "frequency_cycles_per_pixel", "power", {}};
+    Plot residual_plot{
+        PlotStyle::residual, file_name + "-residual", "frequency_cycles_per_pixel", "power", {}};
     residual_plot.curves.push_back({"white noise", Role::white, 0, {0.0, 0.7071}, {1.0, 1.0}});
     residual_plot.curves.push_back(
         {"residual", Role::texture, 0, residual_curve.frequency, residual_curve.power});
-    section.plots.push_back(std::move(residual_plot));
-    plots +=
-        plot_figure(section.plots[1], 1, "Power of the residual",
-                    fmt::format("What a retarget gets wrong, by frequency; {} in 0 &lt; <i>f</i> ≤ .0625.",
-                                number(band_power(residual_power).mean[0])));
+    plots += add_plot(std::move(residual_plot), "Power of the residual",
+                      fmt::format("What a retarget gets wrong; {} in 0 &lt; <i>f</i> ≤ .0625.",
+                                  number(band_power(residual_power).mean[0])));
 
     Plot dither = power_plot(file_name + "-dither", reference);
     const std::vector<double> mask(set.levels->begin(), set.levels->end());
-    const RadialCurve mask_curve = radial_power(analyse(mask, shape, 0.0, 1.0, execution).power);
-    dither.curves.push_back({"the mask", Role::texture, 0, mask_curve.frequency, mask_curve.power});
-    const auto screens = repeated(*set.levels, tile.move, *metadata.step);
-    std::string bands;
+    auto screens = repeated(*set.levels, tile.move, *metadata.step);
+    screens.insert(screens.begin(), mask);
     for (std::size_t i = 0; i < screens.size(); ++i) {
       const PowerSpectrum power = analyse(screens[i], shape, 0.0, 1.0, execution).power;
       const RadialCurve curve = radial_power(power);
-      const std::string after = fmt::format("after {}", kRepeats[i]);
-      dither.curves.push_back({after, Role::texture, static_cast<int>(i) + 1, curve.frequency, curve.power});
-      const std::string band = number(band_power(power).mean[0]);
-      bands += fmt::format("{}{} {}", i == 0 ? "" : ", ", band, after);
-      const Image spectrum = spectrum_image(power, 256);
-      gallery += figure({.image = spectrum,
-                         .scale = scale_for(spectrum.size.width, 192),
-                         .title = fmt::format("Dither {}.", after),
-                         .caption = fmt::format("Spectrum after {} retarget{} in a row; lowest band {}.",
-                                                kRepeats[i], kRepeats[i] == 1 ? "" : "s", band)});
+      const int repeats = i == 0 ? 0 : kRepeats[i - 1];
+      dither.curves.push_back({i == 0 ? "the mask" : fmt::format("after {}", repeats), Role::texture,
+                               static_cast<int>(i), curve.frequency, curve.power});
+      dithers +=
+          spectrum_of(power, i == 0 ? "The dither." : fmt::format("After {}.", repeats),
+                      i == 0 ? fmt::format("Its spectrum before any retarget; lowest band {}.",
+                                           number(band_power(power).mean[0]))
+                             : fmt::format("Its spectrum {} retarget{} later; lowest band {}.", repeats,
+                                           repeats == 1 ? "" : "s", number(band_power(power).mean[0])));
     }
-    section.plots.push_back(std::move(dither));
-    plots += plot_figure(
-        section.plots[2], 2, "The dither after retargets in a row",
-        fmt::format("Without a new sort in between. Power in 0 &lt; <i>f</i> ≤ .0625: {}.", bands));
+    main_plot = add_plot(std::move(dither), "The dither after retargets in a row",
+                         "Radial power, without a new sort in between.");
   }
-  html += "<div class=\"gallery\">" + gallery + "</div>\n<div class=\"plots\">" + plots + "</div>\n" +
-          heat_map(set);
+  html += "<div class=\"gallery\">" + gallery + "</div>\n";
+  if (!dithers.empty()) html += "<div class=\"gallery\">" + dithers + "</div>\n";
 
   // --- facts ---
   const TileRecord& record = tile.record;
@@ -307,10 +308,12 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
   if (set.seconds) facts += fact("time of the job", number(*set.seconds) + " s");
   if (!checked.fault.empty()) facts += fact("fault", escaped(checked.fault));
   html += fmt::format(
-      "<div class=\"wide\"><table class=\"facts\"><caption>Figures; everything but the bounds and the time "
-      "is "
-      "recomputed.</caption><tbody>{}</tbody></table></div>\n",
-      facts);
+      "<div class=\"top\"><div class=\"wide\"><table class=\"facts\"><caption><b>Figures.</b> Everything but "
+      "the "
+      "bounds and the time is "
+      "recomputed.</caption><tbody>{}</tbody></table></div>\n<div>{}</div></div>\n<div "
+      "class=\"plots\">{}{}</div>\n",
+      facts, main_plot, heat_map(set), plots);
   if (!metadata.recipe.empty()) {
     html +=
         fmt::format("<details><summary>Recipe</summary><pre>{}</pre></details>\n", escaped(metadata.recipe));

@@ -15,10 +15,11 @@ struct Section {
   std::string html;  ///< holds plot_slot(i) where plots[i] belongs
   std::vector<Plot> plots;
   std::vector<std::pair<std::string, std::string>>
-      tables;           ///< CSV that is no plot: file name without extension, text
-  std::string summary;  ///< cells of its row in the table at the top
-  std::string card;     ///< for --compare: the pictures and the main figures
-  bool failed = false;  ///< misses a threshold
+      tables;               ///< CSV that is no plot: file name without extension, text
+  std::string summary;      ///< cells of its row in the table at the top
+  std::string card;         ///< for --compare: the pictures and the main figures
+  bool failed = false;      ///< misses a threshold
+  bool not_judged = false;  ///< a picture that is no mask
 };
 
 /// A mark that no text of a file can hold, since escaped() lets no control character pass.
@@ -28,9 +29,10 @@ std::string plot_slot(std::size_t index);
 std::string plot_figure(const Plot& plot, std::size_t index, std::string_view title,
                         std::string_view caption);
 
-/// What good looks like: the averaged power of four void-and-cluster masks of 128 x 128, sigma 1.9.
+/// What good looks like: the averaged power of ten void-and-cluster masks of 128 x 128, sigma 1.9.
 struct Reference {
   RadialCurve radial;
+  std::vector<double> anisotropy_db;  ///< of one of them: the mean of s²/mean² over the masks, in dB
 };
 Reference make_reference(const Execution& execution);
 

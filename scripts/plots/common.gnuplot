@@ -1,6 +1,7 @@
 # What all plots of the report share. Colours are numbers, written as greys, that the page translates to its own
-# (libbn/report/plot.cpp): 1 white noise, 2 reference, 3..8 textures, 20 text and axes, 21 grid.
-set terminal svg size 520,280 noenhanced font 'sans-serif,13'
+# (libbn/report/plot.cpp): 1 white noise, 2 reference, 3..8 textures, 20 text and axes, 21 grid. plot_width and
+# plot_height are the drawing's size on the page.
+set terminal svg size plot_width,plot_height noenhanced font 'sans-serif,13'
 set encoding utf8
 set style line 1 linecolor rgb '#010101' linewidth 1.4 dashtype (6,5)
 set style line 2 linecolor rgb '#020202' linewidth 3.2

@@ -1,6 +1,7 @@
 # Share of the pixels that move so far.
 set boxwidth 0.8
-set xrange [-0.6:*]
+set offsets 0.6, 0.6, 0, 0
+set autoscale xfix
 set yrange [0:*]
 set xtics 1
 set format y '%.0f %%'

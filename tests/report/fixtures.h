@@ -5,6 +5,7 @@
 #include "bn/noise.h"
 #include "bn/report.h"
 #include "bn/retarget.h"
+#include "spectrum/reference_stbn.h"
 #include "texture/fixtures.h"
 
 namespace bn::report {
@@ -69,12 +70,16 @@ inline void write_set(const std::filesystem::path& folder) {
                       "times": {"jobs": {"m": 0.5, "moves": 1.25}}})");
 }
 
+/// A spatiotemporal mask of 32 x 32 x 16, a file a slice.
 inline void write_volume(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
-  const auto slices = golden_ratio_slices(void_and_cluster({.size = {32, 32}}), 12);
-  for (std::size_t z = 0; z < slices.size(); ++z) {
-    write_image(folder / ("slice" + std::to_string(z) + ".png"), encode_mask(slices[z], SampleType::u8),
-                mask_metadata());
+  const auto volume = test::spatiotemporal_mask({32, 32, 16}, 1.9, 1.9, 1);
+  for (std::size_t z = 0; z < 16; ++z) {
+    Image slice{.size = {32, 32}, .channels = 1, .type = SampleType::u8, .samples = {}};
+    for (std::size_t i = 0; i < 1024; ++i) {
+      slice.samples.push_back(static_cast<std::byte>(static_cast<int>(volume[z * 1024 + i]) / 64));
+    }
+    write_image(folder / ("slice" + std::to_string(z) + ".png"), slice, mask_metadata());
   }
 }
 

@@ -174,12 +174,48 @@ TEST_F(Report, WritesTheCurvesAsCsv) {
   EXPECT_EQ(count_of(bytes_of(folder / "csv/moves-energies.csv"), "\n"), 10u);  // a header and nine motions
 }
 
+TEST_F(Report, MakesTheFolderOfCurvesOnlyWhenThereAreSome) {
+  EXPECT_THROW(
+      write_report({.inputs = {folder / "none"}, .out = folder / "r.html", .csv_dir = folder / "csv"}),
+      Error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "csv"));
+  put_bytes(folder / "file", "");
+  write_mask(folder / "mask.png", 16, 1);
+  EXPECT_THROW(
+      write_report({.inputs = {folder / "mask.png"}, .out = folder / "r.html", .csv_dir = folder / "file"}),
+      Error);
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.html"));
+  write_report({.inputs = {folder / "mask.png"}, .out = folder / "r.html", .csv_dir = folder / "csv/"});
+  EXPECT_TRUE(std::filesystem::exists(folder / "csv"));
+}
+
 TEST_F(Report, TakesAFolderAsAVolume) {
   write_volume(folder / "slices");
   const auto summary =
       write_report({.inputs = {folder / "slices"}, .out = folder / "r.html", .volume = true});
   EXPECT_EQ(summary.volumes, 1);
+  EXPECT_EQ(summary.failed, 0);
   EXPECT_NE(page().find("Spectrum in x and time"), std::string::npos);
+  EXPECT_NE(page().find("<span class=\"badge pass\">blue in space and time</span>"), std::string::npos);
+}
+
+TEST_F(Report, JudgesOnlyWhatIsOrLooksLikeNoise) {
+  const auto outcome = [&](const Image& image, std::optional<Metadata> metadata = {}) {
+    write_image(folder / "x.png", image, metadata.value_or(Metadata{}));
+    const auto summary = write_report({.inputs = {folder / "x.png"}, .out = folder / "r.html"});
+    return summary.failed == 1 ? "failed" : summary.not_judged == 1 ? "not judged" : "passed";
+  };
+  Image ramp{.size = {64, 64}, .channels = 1, .type = SampleType::u8, .samples = {}};
+  for (int i = 0; i < 4096; ++i) {
+    ramp.samples.push_back(
+        static_cast<std::byte>(i % 64 * (i / 64) / 16));  // dark corners, bright ones: a picture
+  }
+  EXPECT_STREQ(outcome(ramp), "not judged");
+  EXPECT_STREQ(outcome(ramp, mask_metadata()), "failed");  // it says it is a mask
+  EXPECT_STREQ(outcome(mask_image(64, 1)), "passed");
+  EXPECT_STREQ(outcome(encode_mask(white_noise_mask({64, 64}, 1), SampleType::u8)), "failed");
+  EXPECT_NE(page().find(">white noise</span>"), std::string::npos);
+  EXPECT_STREQ(outcome(encode_mask(bayer_mask(64), SampleType::u8)), "failed");
 }
 
 }  // namespace

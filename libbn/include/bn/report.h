@@ -18,9 +18,10 @@ struct ReportOptions {
   /// folder's manifest.json, where there is one, tells which files are encodings of one texture and how long
   /// each job took.
   std::vector<std::filesystem::path> inputs;
-  std::filesystem::path out;      ///< the page
-  std::filesystem::path csv_dir = {};  ///< empty, or the folder for one CSV file a plot; made if its parent exists
-  bool compare = false;           ///< begin with all textures side by side and their curves in common plots
+  std::filesystem::path out;  ///< the page
+  std::filesystem::path csv_dir =
+      {};                ///< empty, or the folder for one CSV file a plot; made if its parent exists
+  bool compare = false;  ///< begin with all textures side by side and their curves in common plots
   /// The inputs are volumes: each folder is one, its files its slices in name order (numbers by their value);
   /// all files given by name are the slices of one more, in the order given.
   bool volume = false;
@@ -31,7 +32,8 @@ struct ReportSummary {
   int masks = 0;
   int retarget_sets = 0;
   int volumes = 0;
-  int failed = 0;  ///< textures that miss a threshold
+  int failed = 0;      ///< textures that miss a threshold, sets that are not as recorded
+  int not_judged = 0;  ///< pictures that neither say they are masks nor look like one
   std::vector<std::string>
       notes;  ///< files that could not be read, plots that could not be drawn; also in the page
 };

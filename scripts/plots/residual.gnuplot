@@ -1,0 +1,7 @@
+# Radial power of what a retarget gets wrong, against white noise, by frequency.
+set logscale y
+set xrange [0:0.7072]
+set yrange [1e-3:6]
+set xtics 0.1
+set ytics ("1" 1, "0.1" 0.1, "0.01" 0.01, "0.001" 1e-3)
+set xlabel 'frequency, cycles/pixel' textcolor rgb '#141414'
