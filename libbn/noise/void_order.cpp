@@ -20,13 +20,32 @@
 namespace bn {
 namespace {
 
-// 56x56 blocks are 784 KiB of energies. A visit of more rounds sets more pixels for the memory it fetches,
-// but moves by more blocks, half a block a round along each axis.
+// 56x56 blocks are 784 KiB of energies. Fields of fewer than four tiles along an axis are cut into four
+// smaller ones, so that some can be filled at once, and small ones are not cut at all.
 constexpr int kTileBlocks = 56;
-constexpr int kRounds = 76;
-// The visits of two tiles with a third between them are out of reach of each other: what one writes,
-// as far as its kernels reach, the other does not read, as far as its kernels reach.
-static_assert(kRounds / 2 + 2 * (1 + kMaxKernelRadius / kBlockSide) <= kTileBlocks);
+constexpr int kLeastTileBlocks = 32;
+
+int tiles_along(int blocks) {
+  constexpr int kFewestTiles = 4;
+  if (blocks >= kFewestTiles * kTileBlocks) return blocks / kTileBlocks;
+  return blocks >= kFewestTiles * kLeastTileBlocks ? kFewestTiles : 1;
+}
+
+/// Rounds of a visit. More of them set more pixels for the memory that is fetched, but every second one
+/// moves the tile by a block along an axis, and the visits of two tiles with a third between them must
+/// stay out of each other's reach: what one writes, as far as its kernels reach, the other does not
+/// read, as far as its kernels reach.
+int rounds_of_visit(const EnergyField& field) {
+  constexpr int kMostRounds = 76;
+  const auto most_moves = [](int blocks, int reach) {
+    const int tiles = tiles_along(blocks);
+    return tiles == 1 ? kMostRounds : blocks / tiles - 2 * reach;
+  };
+  return std::min({kMostRounds, 2 * most_moves(field.blocks_x, field.reach_x),
+                   2 * most_moves(field.blocks_y, field.reach_y)});
+}
+// At least a round, whatever the reach.
+static_assert(kLeastTileBlocks > 2 * (1 + kMaxKernelRadius / kBlockSide));
 
 using Wave = std::vector<BlockRect>;
 
@@ -52,8 +71,8 @@ struct Axis {
 /// wave with any neighbour on the torus.
 std::vector<Wave> waves_of_sweep(const EnergyField& field) {
   constexpr int kTilesOfChain = 4;
-  const int columns = std::max(1, field.blocks_x / kTileBlocks);
-  const int rows = std::max(1, field.blocks_y / kTileBlocks);
+  const int columns = tiles_along(field.blocks_x);
+  const int rows = tiles_along(field.blocks_y);
   const Axis y(field.blocks_y, rows, std::max(1, rows / kTilesOfChain));
   const Axis x(field.blocks_x, columns, rows < kTilesOfChain ? std::max(1, columns / kTilesOfChain) : 1);
 
@@ -110,13 +129,14 @@ Grid<std::uint32_t> void_order(EnergyField&& field, const BlockKernel& kernel, s
     EnergyField energies = std::move(field);  // freed before the sort takes its memory
     energies.update_minima();
     const std::vector<Wave> waves = waves_of_sweep(energies);
+    const int rounds = rounds_of_visit(energies);
     std::atomic<std::int64_t> set = 0;
     while (set < count) {
       for (const Wave& wave : waves) {
         parallel_for(execution, static_cast<std::int64_t>(wave.size()), [&](std::int64_t i) {
           throw_if_stopped(execution);
           const std::int64_t now =
-              fill_tile(energies, kernel, wave[static_cast<std::size_t>(i)], kRounds, order.data());
+              fill_tile(energies, kernel, wave[static_cast<std::size_t>(i)], rounds, order.data());
           set += now;
           meter.advance(static_cast<std::uint64_t>(now));
         });

@@ -30,9 +30,9 @@ struct VoidAndClusterOptions {
 /// Sizes below the kernel's are correct: the kernel wraps onto itself.
 ///
 /// Errors: invalid_input (an option outside its range), over_limit (memory), cancelled.
-/// Threads: execution.threads, useful from 832 pixels a side on; a stop is heeded within
-/// milliseconds. Cost at sigma 1.9 on one core: about 150 ns a pixel at 256² and 512², 300 ns at
-/// 4096² and above (10 ms for 256², 0.25 s for 1024², 5 s for 4096²); it grows with the square of
+/// Threads: execution.threads, useful from 1024 pixels a side on; a stop is heeded within
+/// milliseconds. Cost at sigma 1.9 on one core: about 130 ns a pixel at 256² and 512², 180 ns at
+/// 4096² and above (9 ms for 256², 0.16 s for 1024², 3 s for 4096²); it grows with the square of
 /// sigma. Memory: 12 bytes a pixel.
 Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const Execution& execution = {});
 
