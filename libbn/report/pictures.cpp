@@ -88,6 +88,19 @@ Image spectrum_image(const PowerSpectrum& power, int side) {
   return grey_image(small);
 }
 
+Image made_square(const Image& image) {
+  const int times = std::max(1, image.size.width / std::max(1, image.size.height));
+  Image result = image;
+  result.size.height *= times;
+  result.samples.clear();
+  const auto row_bytes = static_cast<std::ptrdiff_t>(image.samples.size()) / image.size.height;
+  for (std::ptrdiff_t y = 0; y < image.size.height; ++y) {
+    const auto row = image.samples.begin() + y * row_bytes;
+    for (int i = 0; i < times; ++i) result.samples.insert(result.samples.end(), row, row + row_bytes);
+  }
+  return result;
+}
+
 Image signed_image(const Grid<double>& values, double full) {
   constexpr Colour kZero{0.93, 0.93, 0.92}, kBelow{0.10, 0.35, 0.70}, kAbove{0.80, 0.35, 0.05};
   return colour_image(values.size(), [&](int x, int y) {

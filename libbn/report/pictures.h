@@ -18,6 +18,9 @@ Grid<std::uint8_t> window(const Grid<std::uint8_t>& grey, int x, int y, Extent s
 /// side.
 Image spectrum_image(const PowerSpectrum& power, int side);
 
+/// `image` with every row so often, the least whole number that makes it about as high as wide.
+Image made_square(const Image& image);
+
 /// Blue below zero, orange above, grey at zero; full colour at `full` and beyond.
 Image signed_image(const Grid<double>& values, double full);
 

@@ -64,6 +64,8 @@ const StyleFile& style_file(PlotStyle style) {
   return kFiles[static_cast<std::size_t>(style)];
 }
 
+PlotSize size_of(const Plot& plot) { return plot.wide ? kHalfOfThePage : style_file(plot.style).size; }
+
 constexpr std::chrono::seconds kTimeLimit{60};
 
 /// Line styles of common.gnuplot.
@@ -84,8 +86,9 @@ std::string script_of(const std::vector<Plot>& plots) {
   auto to = std::back_inserter(script);
   for (const Plot& plot : plots) {
     const StyleFile& file = style_file(plot.style);
-    fmt::format_to(to, "reset session\nplot_width = {}\nplot_height = {}\n{}\n{}\n", file.size.width,
-                   file.size.height, kCommon, file.script);
+    const PlotSize size = size_of(plot);
+    fmt::format_to(to, "reset session\nplot_width = {}\nplot_height = {}\n{}\n{}\n", size.width, size.height,
+                   kCommon, file.script);
     std::string drawn;
     for (std::size_t c = 0; c < plot.curves.size(); ++c) {
       const Curve& curve = plot.curves[c];
@@ -202,7 +205,7 @@ Drawing draw(const std::vector<Plot>& plots, std::stop_token stop) {
     if (end == std::string_view::npos) break;
     if (drawing.svg.size() == plots.size()) break;
     // The opening tag is ours: gnuplot's has its size in pixels.
-    const PlotSize size = style_file(plots[drawing.svg.size()].style).size;
+    const PlotSize size = size_of(plots[drawing.svg.size()]);
     const auto tag_end = rest.find('>', begin);
     drawing.svg.push_back(fmt::format(
         "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"plot\">\n{}</svg>\n",

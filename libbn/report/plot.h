@@ -28,6 +28,7 @@ struct Plot {
   std::string file_name;  ///< of its CSV, without extension
   std::string x_name, y_name;
   std::vector<Curve> curves;
+  bool wide = false;  ///< for half of the page, whatever its style
 };
 
 /// Lines "curve,x,y" with a header of the plot's own names; numbers as short as they can be read back

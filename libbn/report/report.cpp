@@ -79,6 +79,7 @@ std::string file_name_for(const std::string& name, std::set<std::string>& taken)
 void add_common_plots(report::Page& page, const report::Reference& reference) {
   page.common_power = report::power_plot("compare-power", reference);
   page.common_anisotropy = report::anisotropy_plot("compare-anisotropy", reference);
+  page.common_anisotropy.wide = true;
   int colour = 0;
   for (const report::Section& section : page.sections) {
     if (section.card.empty()) continue;

@@ -33,8 +33,7 @@ Grid<std::uint8_t> grey_of(const Texture& texture, int z) {
   return grey;
 }
 
-std::string spectrum_figure(const PowerSpectrum& power, std::string_view title, std::string caption) {
-  const Image spectrum = spectrum_image(power, kSpectrumShown);
+std::string spectrum_figure(const Image& spectrum, std::string_view title, std::string caption) {
   return figure({.image = spectrum,
                  .scale = scale_for(spectrum.size.width, kShownWide),
                  .title = std::string(title),
@@ -108,15 +107,16 @@ std::string gallery(const TextureView& view, const Execution& execution) {
                                               : fmt::format("The first {} × {} of {} × {} pixels.",
                                                             shown.width, shown.height, w, h)});
   html +=
-      spectrum_figure(view.plane, "Spectrum.",
+      spectrum_figure(spectrum_image(view.plane, kSpectrumShown), "Spectrum.",
                       fmt::format("Decibels, black −50, white +12.5, white noise 0{}. Zero frequency in the "
                                   "middle, ±½ cycle/pixel at the edges. Blue noise: a dark, round hole.",
                                   volume ? "; mean of the slices" : ""));
   if (volume) {
-    html +=
-        spectrum_figure(project(view.power, Projection::xz), "Spectrum in x and time.",
-                        "Averaged over y. Across: cycles/pixel; down: cycles/frame, ±½ at the edges. Blue in "
-                        "space and time: dark where both are low.");
+    html += spectrum_figure(made_square(spectrum_image(project(view.power, Projection::xz), kSpectrumShown)),
+                            "Spectrum in x and time.",
+                            "Averaged over y. Across: cycles/pixel; down: cycles/frame, ±½ at the edges. "
+                            "Blue in time: a dark band "
+                            "across the middle.");
   }
   html += correlation_figure(view.correlation, {view.texture.shape.width, view.texture.shape.height});
   if (!volume) html += photograph_figure(view, execution);
@@ -205,7 +205,7 @@ std::string card_pictures(const TextureView& view) {
                  .scale = scale_for(shown.width, kShownWide),
                  .title = "",
                  .caption = size_of(view.texture.shape) + " pixels"}) +
-         spectrum_figure(view.plane, "", "Spectrum") + "</div>";
+         spectrum_figure(spectrum_image(view.plane, kSpectrumShown), "", "Spectrum") + "</div>";
 }
 
 }  // namespace bn::report

@@ -54,7 +54,7 @@ Plot histogram_plot(const Texture& texture, std::string file_name) {
 std::string about(const Texture& texture) {
   std::string line = fmt::format("{} pixels, {}", size_of(texture.shape), name_of(texture.type));
   if (texture.metadata) {
-    line += ", " + escaped(texture.metadata->algorithm);
+    if (!texture.metadata->algorithm.empty()) line += ", " + escaped(texture.metadata->algorithm);
     if (texture.metadata->seed) line += fmt::format(", seed {}", *texture.metadata->seed);
   }
   if (texture.seconds) line += fmt::format(", made in {} s", number(*texture.seconds));
