@@ -114,12 +114,18 @@ int scale_for(int pixels, int wanted) { return std::max(1, wanted / std::max(1, 
 
 std::string figure(const Picture& picture) {
   const int pixels = picture.image.size.width;
+  const int whole = pixels * picture.scale;
+  const bool cut = picture.shown > 0 && picture.shown < whole;
   const int narrow_scale = std::min(picture.scale, kNarrowPage / pixels);
+  const int narrow = cut ? std::min(picture.shown, kNarrowPage) : pixels * std::max(1, narrow_scale);
   return fmt::format(
-      "<figure class=\"picture{}\" style=\"--w:{}px;--n:{}px\"><label class=\"zoom\"><input "
-      "type=\"checkbox\" "
-      "aria-label=\"Show larger\">{}</label><figcaption><b>{}</b> {}</figcaption></figure>\n",
-      narrow_scale == 0 ? " cut" : "", pixels * picture.scale, pixels * std::max(1, narrow_scale),
+      "<figure class=\"picture{}\" style=\"--w:{}px;--n:{}px;--z:{}px\"><label class=\"zoom\"><input "
+      "type=\"checkbox\" aria-label=\"Show larger\">{}</label><figcaption><b>{}</b> "
+      "{}</figcaption></figure>\n",
+      cut                 ? " cut"
+      : narrow_scale == 0 ? " narrow-cut"
+                          : "",
+      cut ? picture.shown : whole, narrow, whole * (cut ? 2 : 3),
       image_element(picture.image, picture.scale, "picture; its caption says what it shows"), picture.title,
       picture.caption);
 }

@@ -27,6 +27,7 @@ struct Picture {
   int scale = 1;        ///< page pixels a pixel, on a wide page
   std::string title;    ///< HTML
   std::string caption;  ///< HTML; empty for small ones
+  int shown = 0;        ///< page pixels of it that are seen before a click; 0: all
 };
 std::string figure(const Picture& picture);
 

@@ -15,7 +15,7 @@ namespace bn::report {
 namespace {
 
 constexpr std::array<int, 3> kRepeats{1, 8, 64};
-constexpr int kSpectrumShown = 340;  ///< pixels a side: what a telephone shows whole
+constexpr int kSpectrumShown = 288;  ///< pixels a side: four pictures fill a row
 
 RetargetOptions options_of(const Metadata& metadata, Offset motion) {
   RetargetOptions options;

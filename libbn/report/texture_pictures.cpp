@@ -12,7 +12,7 @@ namespace bn::report {
 namespace {
 
 constexpr int kMostShown = 512;      ///< pixels a side of the picture
-constexpr int kSpectrumShown = 340;  ///< of the spectrum: what a telephone shows whole
+constexpr int kSpectrumShown = 288;  ///< of the spectrum: four pictures fill a row
 constexpr int kShownWide = 256;      ///< page pixels, about
 constexpr int kTiled = 384;
 constexpr int kLevelSide = 64;
@@ -99,13 +99,15 @@ std::string gallery(const TextureView& view, const Execution& execution) {
   const int w = grey.width(), h = grey.height();
   const Extent shown{std::min(w, kMostShown), std::min(h, kMostShown)};
   const bool volume = view.texture.shape.depth > 1;
-  std::string html =
-      figure({.image = grey_image(window(grey, 0, 0, shown)),
-              .scale = scale_for(shown.width, kShownWide),
-              .title = volume ? "The first slice." : "The texture.",
-              .caption = shown == grey.size() ? fmt::format("All {} × {} pixels.", w, h)
-                                              : fmt::format("The first {} × {} of {} × {} pixels.",
-                                                            shown.width, shown.height, w, h)});
+  std::string caption = shown == grey.size() ? fmt::format("All {} × {} pixels.", w, h)
+                                             : fmt::format("The first {} × {} of {} × {} pixels.",
+                                                           shown.width, shown.height, w, h);
+  if (shown.width > kShownWide) caption += " Cut here; a click shows them all.";
+  std::string html = figure({.image = grey_image(window(grey, 0, 0, shown)),
+                             .scale = scale_for(shown.width, kShownWide),
+                             .title = volume ? "The first slice." : "The texture.",
+                             .caption = caption,
+                             .shown = kShownWide});
   html +=
       spectrum_figure(spectrum_image(view.plane, kSpectrumShown), "Spectrum.",
                       fmt::format("Decibels, black −50, white +12.5, white noise 0{}. Zero frequency in the "

@@ -42,7 +42,7 @@ for (const width of [1280, 400]) {
         e => /--plot-[3-8]\b/.test(e.getAttribute("stroke")));
     const faint = texts.filter(e => contrast(style(e).fill, paper) < 4.5).length +
         curves.filter(e => contrast(style(e).stroke, paper) < 3).length;
-    const uneven = images.filter(i => !i.closest(".cut") && i.getBoundingClientRect().width % i.naturalWidth != 0).length;
+    const uneven = images.filter(i => !i.closest(".cut, .narrow-cut") && i.getBoundingClientRect().width % i.naturalWidth != 0).length;
     found.push("[" + width + " window " + frame.contentWindow.innerWidth + " overflow " +
         (d.documentElement.scrollWidth - d.documentElement.clientWidth) + " images " + images.length + " broken " +
         images.filter(i => !i.complete || i.naturalWidth == 0).length + " charts " + charts.length + " empty " +
