@@ -40,17 +40,29 @@ bool answers_to(const vk::raii::PhysicalDevice& device, const std::string& wante
   return std::string_view(properties.deviceName).find(wanted) != std::string_view::npos;
 }
 
-/// What this runtime needs and the device lacks, or nothing.
-std::string missing_feature(const vk::raii::PhysicalDevice& device) {
-  if (device.getProperties().apiVersion < kVulkanVersion) return "Vulkan 1.2";
-  if (!device.getFeatures().shaderInt64) return "shaderInt64";
-  for (const vk::ExtensionProperties& extension : device.enumerateDeviceExtensionProperties()) {
+[[noreturn]] void throw_no_device(const std::string& wanted, const std::string& lacking,
+                                  const std::string& present) {
+  throw Error({.code = ErrorCode::io,
+               .what = lacking.empty() ? fmt::format("no Vulkan device '{}'", wanted)
+                                       : fmt::format("device '{}' lacks {}", wanted, lacking),
+               .where = "--device",
+               .limit = present.empty() ? "no driver found" : "present: " + present,
+               .remedy = wanted == "lavapipe"
+                             ? "install mesa-vulkan-drivers (/usr/share/vulkan/icd.d/lvp_icd.x86_64.json)"
+                             : ""});
+}
+
+}  // namespace
+
+std::string missing_feature(std::uint32_t api_version, const vk::PhysicalDeviceFeatures& features,
+                            std::span<const vk::ExtensionProperties> extensions) {
+  if (api_version < kVulkanVersion) return "Vulkan 1.2";
+  if (!features.shaderInt64) return "shaderInt64";
+  for (const vk::ExtensionProperties& extension : extensions) {
     if (std::string_view(extension.extensionName) == VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME) return "";
   }
   return VK_KHR_PUSH_DESCRIPTOR_EXTENSION_NAME;
 }
-
-}  // namespace
 
 void throw_vulkan_error(const vk::SystemError& error, const std::string& doing) {
   const auto result = static_cast<vk::Result>(error.code().value());
@@ -112,6 +124,8 @@ VulkanDevice::VulkanDevice(const std::string& wanted, bool validate)
                  .where = "vulkan",
                  .limit = "",
                  .remedy = "install vulkan-validationlayers"});
+  } catch (const vk::IncompatibleDriverError&) {
+    throw_no_device(wanted, "", "");
   } catch (const vk::SystemError& error) {
     throw_vulkan_error(error, "opening the device");
   }
@@ -130,7 +144,8 @@ void VulkanDevice::choose(const std::string& wanted) {
     const std::string name = device.getProperties().deviceName;
     present += (present.empty() ? "" : "; ") + name;
     if (!answers_to(device, wanted)) continue;
-    lacking = missing_feature(device);
+    lacking = missing_feature(device.getProperties().apiVersion, device.getFeatures(),
+                              device.enumerateDeviceExtensionProperties());
     if (!lacking.empty()) continue;
     const auto families = device.getQueueFamilyProperties();
     for (std::uint32_t i = 0; i < families.size(); ++i) {
@@ -144,14 +159,7 @@ void VulkanDevice::choose(const std::string& wanted) {
     }
     lacking = "a compute queue with time stamps";
   }
-  throw Error({.code = ErrorCode::io,
-               .what = lacking.empty() ? fmt::format("no Vulkan device '{}'", wanted)
-                                       : fmt::format("device '{}' lacks {}", wanted, lacking),
-               .where = "--device",
-               .limit = present.empty() ? "no driver found" : "present: " + present,
-               .remedy = wanted == "lavapipe"
-                             ? "install mesa-vulkan-drivers (/usr/share/vulkan/icd.d/lvp_icd.x86_64.json)"
-                             : ""});
+  throw_no_device(wanted, lacking, present);
 }
 
 DeviceBuffer VulkanDevice::allocate(std::uint64_t bytes, vk::BufferUsageFlags usage,

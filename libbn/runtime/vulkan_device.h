@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -12,6 +13,8 @@
 #include "bn/core.h"
 
 namespace bn {
+
+class Pass;
 
 /// Storage on the device.
 struct DeviceBuffer {
@@ -39,6 +42,9 @@ class VulkanDevice {
     submit();
   }
 
+  /// Passes by the address of their code: compiled once a device, whoever uses them (see shared_pass()).
+  std::map<const std::uint32_t*, std::shared_ptr<const Pass>>& passes() { return passes_; }
+
   const vk::raii::Device& handle() const { return device_; }
   const std::string& name() const { return name_; }
   double timestamp_unit_ns() const { return timestamp_unit_ns_; }
@@ -64,12 +70,17 @@ class VulkanDevice {
   vk::raii::CommandBuffer commands_{nullptr};
   vk::raii::Fence fence_{nullptr};
   DeviceBuffer staging_;
+  std::map<const std::uint32_t*, std::shared_ptr<const Pass>> passes_;
   std::string name_;
   std::uint32_t queue_family_ = 0;
   double timestamp_unit_ns_ = 1.0;
 };
 
-/// Runs `body`; a vk::SystemError becomes a bn::Error that says what was being done.
+/// What this runtime needs and a device with these properties lacks; empty: nothing.
+std::string missing_feature(std::uint32_t api_version, const vk::PhysicalDeviceFeatures& features,
+                            std::span<const vk::ExtensionProperties> extensions);
+
+/// `error` as a bn::Error that says what was being done: over_limit where memory ran out, else io.
 [[noreturn]] void throw_vulkan_error(const vk::SystemError& error, const std::string& doing);
 
 }  // namespace bn

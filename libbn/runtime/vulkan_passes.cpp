@@ -111,6 +111,13 @@ void Pass::record_bytes(const vk::raii::CommandBuffer& commands,
   record_barrier(commands);
 }
 
+std::shared_ptr<const Pass> shared_pass(VulkanDevice& device, std::span<const std::uint32_t> spirv,
+                                        int buffers, std::uint32_t push_bytes, std::uint32_t group_size) {
+  std::shared_ptr<const Pass>& pass = device.passes()[spirv.data()];
+  if (!pass) pass = std::make_shared<const Pass>(device, spirv, buffers, push_bytes, group_size);
+  return pass;
+}
+
 void record_barrier(const vk::raii::CommandBuffer& commands) {
   using Stage = vk::PipelineStageFlagBits;
   using Access = vk::AccessFlagBits;
@@ -157,10 +164,11 @@ VulkanTemporal::VulkanTemporal(VulkanDevice& device, const TemporalTextures& tex
       tile_(textures.mask.size()),
       block_(block),
       motion_range_(textures.motion_range),
-      sort_(device, shader_code(sort_code(block)), 3, sizeof(SortPush), 64),
-      retarget_(device, shader_code(ShaderCode::retarget), 4, sizeof(RetargetPush), 64),
-      motion_sum_(device, shader_code(ShaderCode::motion_sum), 2, sizeof(MotionSumPush), 64),
-      motion_choose_(device, shader_code(ShaderCode::motion_choose), 2, sizeof(MotionChoosePush), 1) {
+      sort_(shared_pass(device, shader_code(sort_code(block)), 3, sizeof(SortPush), 64)),
+      retarget_(shared_pass(device, shader_code(ShaderCode::retarget), 4, sizeof(RetargetPush), 64)),
+      motion_sum_(shared_pass(device, shader_code(ShaderCode::motion_sum), 2, sizeof(MotionSumPush), 64)),
+      motion_choose_(
+          shared_pass(device, shader_code(ShaderCode::motion_choose), 2, sizeof(MotionChoosePush), 1)) {
   const auto pixels = static_cast<std::uint64_t>(screen.area());
   mask_ = device.make_buffer(textures.mask.count() * 4);
   upload_all(device, mask_, std::vector<std::int32_t>(textures.mask.begin(), textures.mask.end()));
@@ -182,25 +190,25 @@ VulkanTemporal::VulkanTemporal(VulkanDevice& device, const TemporalTextures& tex
 }
 
 void VulkanTemporal::record_motion_choice(const vk::raii::CommandBuffer& commands) const {
-  motion_sum_.record(commands, {&motion_, &sums_}, MotionSumPush{static_cast<std::int32_t>(screen_.area())},
-                     kMotionLanes);
-  motion_choose_.record(commands, {&sums_, &chosen_}, MotionChoosePush{motion_range_}, 1);
+  motion_sum_->record(commands, {&motion_, &sums_}, MotionSumPush{static_cast<std::int32_t>(screen_.area())},
+                      kMotionLanes);
+  motion_choose_->record(commands, {&sums_, &chosen_}, MotionChoosePush{motion_range_}, 1);
 }
 
 void VulkanTemporal::record_retarget(const vk::raii::CommandBuffer& commands, Offset shift) {
-  retarget_.record(commands, {&moves_, &chosen_, &seeds_[current_], &seeds_[1 - current_]},
-                   RetargetPush{ivec2(padded_), ivec2(tile_), ivec2(shift), motion_range_}, padded_.width,
-                   padded_.height);
+  retarget_->record(commands, {&moves_, &chosen_, &seeds_[current_], &seeds_[1 - current_]},
+                    RetargetPush{ivec2(padded_), ivec2(tile_), ivec2(shift), motion_range_}, padded_.width,
+                    padded_.height);
   current_ = 1 - current_;
 }
 
 void VulkanTemporal::record_sort(const vk::raii::CommandBuffer& commands, Offset shift, Offset origin) const {
   const int columns = (screen_.width + origin.x + block_ - 1) / block_;
   const int rows = (screen_.height + origin.y + block_ - 1) / block_;
-  sort_.record(commands, {&luminance_, &mask_, &seeds_[current_]},
-               SortPush{ivec2(screen_), ivec2(tile_), ivec2(shift), ivec2(origin), padded_.width, columns,
-                        columns * rows},
-               std::int64_t{columns} * rows);
+  sort_->record(commands, {&luminance_, &mask_, &seeds_[current_]},
+                SortPush{ivec2(screen_), ivec2(tile_), ivec2(shift), ivec2(origin), padded_.width, columns,
+                         columns * rows},
+                std::int64_t{columns} * rows);
 }
 
 Seeds VulkanTemporal::download_seeds() {

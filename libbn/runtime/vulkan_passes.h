@@ -44,6 +44,11 @@ class Pass {
   std::uint32_t group_size_;
 };
 
+/// The pass of `spirv` on `device`, compiled at its first use: that takes up to seconds, a frame
+/// milliseconds.
+std::shared_ptr<const Pass> shared_pass(VulkanDevice& device, std::span<const std::uint32_t> spirv,
+                                        int buffers, std::uint32_t push_bytes, std::uint32_t group_size);
+
 /// Makes what transfers wrote visible to passes, and what passes wrote visible to transfers.
 void record_barrier(const vk::raii::CommandBuffer& commands);
 
@@ -90,7 +95,7 @@ class VulkanTemporal {
   Extent screen_, padded_, tile_;
   int block_;
   int motion_range_;
-  Pass sort_, retarget_, motion_sum_, motion_choose_;
+  std::shared_ptr<const Pass> sort_, retarget_, motion_sum_, motion_choose_;
   DeviceBuffer mask_, moves_, luminance_, motion_, sums_, chosen_;
   std::array<DeviceBuffer, 2> seeds_;
   std::size_t current_ = 0;

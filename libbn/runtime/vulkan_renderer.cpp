@@ -39,9 +39,9 @@ class VulkanRenderer final : public Renderer {
         digest_(multiset_digest(seeds_of_sequence(padded_, settings.seed))),
         temporal_(*device_, textures, settings.screen, seeds_of_sequence(padded_, settings.seed),
                   settings.block),
-        gbuffer_(*device_, shader_code(ShaderCode::gbuffer), 6, 0, 8),
-        trace_(*device_, shader_code(ShaderCode::trace), 9, 0, 8),
-        tone_map_(*device_, shader_code(ShaderCode::tone_map), 2, sizeof(ToneMapPush), 64),
+        gbuffer_(shared_pass(*device_, shader_code(ShaderCode::gbuffer), 6, 0, 8)),
+        trace_(shared_pass(*device_, shader_code(ShaderCode::trace), 9, 0, 8)),
+        tone_map_(shared_pass(*device_, shader_code(ShaderCode::tone_map), 2, sizeof(ToneMapPush), 64)),
         timer_(*device_) {
     const auto pixels = static_cast<std::uint64_t>(settings.screen.area());
     constants_ = device_->make_buffer(sizeof(FrameConstants));
@@ -66,7 +66,7 @@ class VulkanRenderer final : public Renderer {
       commands.updateBuffer<FrameConstants>(*constants_.buffer, 0, constants);
       record_barrier(commands);
       timer_.start(commands);
-      gbuffer_.record_without_push(
+      gbuffer_->record_without_push(
           commands, {&constants_, &words_, &positions_, &normals_, &albedos_, &temporal_.motion()},
           screen.width, tiles_down);
       timer_.mark(commands, "gbuffer");
@@ -78,10 +78,10 @@ class VulkanRenderer final : public Renderer {
         temporal_.record_retarget(commands, tile_shift(tile, textures_.step, frame_ - 1));
         timer_.mark(commands, "retarget");
       }
-      trace_.record_without_push(commands,
-                                 {&constants_, &words_, &positions_, &normals_, &albedos_, &temporal_.seeds(),
-                                  &temporal_.mask(), &colours_, &temporal_.luminance()},
-                                 screen.width, tiles_down);
+      trace_->record_without_push(commands,
+                                  {&constants_, &words_, &positions_, &normals_, &albedos_,
+                                   &temporal_.seeds(), &temporal_.mask(), &colours_, &temporal_.luminance()},
+                                  screen.width, tiles_down);
       timer_.mark(commands, "trace");
     });
     result.times = timer_.read();
@@ -95,8 +95,8 @@ class VulkanRenderer final : public Renderer {
                               sort_blocks(settings_.block, settings_.jitter, settings_.seed, frame_).origin);
         timer_.mark(commands, "sort");
       }
-      tone_map_.record(commands, {&colours_, &shown_}, ToneMapPush{static_cast<std::int32_t>(screen.area())},
-                       screen.area());
+      tone_map_->record(commands, {&colours_, &shown_}, ToneMapPush{static_cast<std::int32_t>(screen.area())},
+                        screen.area());
       timer_.mark(commands, "tone map");
     });
     for (PassTime& time : timer_.read()) result.times.push_back(std::move(time));
@@ -123,7 +123,7 @@ class VulkanRenderer final : public Renderer {
   PackedScene packed_;
   std::uint64_t digest_;
   VulkanTemporal temporal_;
-  Pass gbuffer_, trace_, tone_map_;
+  std::shared_ptr<const Pass> gbuffer_, trace_, tone_map_;
   PassTimer timer_;
   DeviceBuffer constants_, words_, positions_, normals_, albedos_, colours_, shown_;
   int frame_ = 0;

@@ -3,6 +3,9 @@
 // checks) have nothing to say.
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cstdio>
+
 #include "bn/runtime.h"
 #include "runtime/vulkan_passes.h"
 
@@ -107,6 +110,31 @@ TEST(VulkanDevice, ABufferAboveTheLimitIsRefused) {
     EXPECT_EQ(error.code(), ErrorCode::over_limit);
   }
   EXPECT_EQ(first_complaint(), "");
+}
+
+TEST(VulkanDevice, WhatADeviceLacksIsNamed) {
+  vk::PhysicalDeviceFeatures features;
+  features.shaderInt64 = true;
+  vk::ExtensionProperties push;
+  std::snprintf(push.extensionName.data(), push.extensionName.size(), "VK_KHR_push_descriptor");
+  const std::array extensions{push};
+  EXPECT_EQ(missing_feature(VK_API_VERSION_1_2, features, extensions), "");
+  EXPECT_EQ(missing_feature(VK_API_VERSION_1_1, features, extensions), "Vulkan 1.2");
+  EXPECT_EQ(missing_feature(VK_API_VERSION_1_3, {}, extensions), "shaderInt64");
+  EXPECT_EQ(missing_feature(VK_API_VERSION_1_2, features, {}), "VK_KHR_push_descriptor");
+}
+
+TEST(VulkanDevice, OutOfMemoryIsALimitAndOtherFailuresAreNot) {
+  const auto code = [](const vk::SystemError& error) {
+    try {
+      throw_vulkan_error(error, "allocating");
+    } catch (const Error& thrown) {
+      return thrown.code();
+    }
+  };
+  EXPECT_EQ(code(vk::OutOfDeviceMemoryError("")), ErrorCode::over_limit);
+  EXPECT_EQ(code(vk::OutOfHostMemoryError("")), ErrorCode::over_limit);
+  EXPECT_EQ(code(vk::DeviceLostError("")), ErrorCode::io);
 }
 
 }  // namespace
