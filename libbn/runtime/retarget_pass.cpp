@@ -97,9 +97,13 @@ Seeds retarget_seeds(const Seeds& seeds, const Grid<Offset>& move, Offset shift,
   Seeds moved(seeds.size());
   parallel_for(execution, seeds.height(), [&](std::int64_t row) {
     const int y = static_cast<int>(row);
-    for (int x = 0; x < seeds.width(); ++x) {
-      const Offset by = move.torus(x + shift.x, y + shift.y);
-      moved(wrap(x + by.x, seeds.width()), wrap(y + by.y, seeds.height())) = seeds(x, y);
+    const int tile_y = wrap(std::int64_t{y} + shift.y, move.height());
+    // Divisions are slow, and nearly no pixel needs one.
+    const auto inside = [](int at, int side) { return at >= 0 && at < side ? at : wrap(at, side); };
+    for (int x = 0, tile_x = wrap(shift.x, move.width()); x < seeds.width(); ++x) {
+      const Offset by = move(tile_x, tile_y);
+      moved(inside(x + by.x, seeds.width()), inside(y + by.y, seeds.height())) = seeds(x, y);
+      if (++tile_x == move.width()) tile_x = 0;
     }
   });
   return moved;

@@ -58,14 +58,19 @@ TEST(Seeds, MultisetSurvivesAHundredFramesOnAnyScreen) {
     const std::uint64_t digest = multiset_digest(seeds);
     EXPECT_EQ(std::adjacent_find(before.begin(), before.end()), before.end()) << "seeds are all different";
     Grid<float> luminance(screen);
-    const int frames = screen.area() > 1000000 ? 10 : 100;  // the large one again on the device
-    for (int frame = 0; frame < frames; ++frame) {
-      for (std::size_t i = 0; i < luminance.count(); ++i) {
-        luminance[i] = sample(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(frame));
+    for (int frame = 0; frame < 100; ++frame) {
+      // As in a renderer, the seed decides the value; the frame stands for a scene that changes.
+      for (int y = 0; y < screen.height; ++y) {
+        for (int x = 0; x < screen.width; ++x)
+          luminance(x, y) = static_cast<float>(seeds(x, y) * (2u * static_cast<std::uint32_t>(frame) + 1u));
       }
       const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
-      sort_seeds(seeds, luminance, textures.mask, shift,
-                 sort_blocks(2 << frame % 4, frame % 3 == 0, 9, frame));
+      // Every size of block, still and jittered; retarget off in some frames, else every motion there is.
+      // Small blocks are cheap, so the largest screen has mostly those.
+      const bool large = screen.area() > 1'000'000 && frame % 20 < 16;
+      const int block = large ? 2 << frame % 2 : 2 << frame % 4;
+      sort_seeds(seeds, luminance, textures.mask, shift, sort_blocks(block, frame % 3 == 0, 9, frame));
+      if (frame % 10 == 9) continue;
       seeds = retarget_seeds(seeds, textures.move({frame % 3 - 1, frame / 3 % 3 - 1}), shift);
     }
     EXPECT_EQ(multiset_digest(seeds), digest);
