@@ -21,6 +21,7 @@
 #include "bn/spectrum.h"
 #include "bn/texture.h"
 #include "core/progress.h"
+#include "runtime/renderer.h"
 #include "runtime/scene.h"
 
 namespace bn {
@@ -383,6 +384,20 @@ void run_study(const StudyOptions& options, const TemporalTextures& textures,
   textures.check();
   std::vector<Scene> scenes;
   for (const std::string& name : options.scenes) scenes.push_back(load_scene(name));
+  // What a renderer refuses, it refuses before a folder is made.
+  for (const Scene& scene : scenes) {
+    for (const Method method : options.methods) {
+      const RenderSettings settings{
+          .screen = options.screen, .method = method, .bounces = options.bounces, .block = options.block};
+      check_rendering(scene, textures, settings);
+    }
+  }
+  const RenderSettings largest{.screen = options.screen, .method = Method::white, .block = options.block};
+  if (device) {
+    make_vulkan_renderer(device, scenes[0], textures, largest);
+  } else {
+    make_plain_renderer(scenes[0], textures, largest);
+  }
   std::filesystem::create_directories(folder);
   const auto steps = (options.frames + 1) * static_cast<int>(options.methods.size()) +
                      kReferences * options.reference_samples;
