@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bn/runtime.h"
 #include "tools/verb.h"
 
@@ -10,10 +12,11 @@ namespace {
 
 struct Settings {
   std::string scene;
-  std::string method = "all";
+  std::vector<Method> methods;  ///< empty: all
   StudyOptions study;
   std::string device = "lavapipe";
   std::filesystem::path textures;
+  std::filesystem::path slices;
   std::optional<Offset> step;
   bool unsafe = false;
   bool quick = false;
@@ -28,16 +31,43 @@ ValueKind<std::string> any_text(std::string placeholder) {
   return kind;
 }
 
+/// "all" for an empty list, or some methods: "retarget,reproject".
+ValueKind<std::vector<Method>> method_list() {
+  std::vector<std::string> names{"all"};
+  for (const Method method : kMethods) names.emplace_back(name_of(method));
+  ValueKind<std::vector<Method>> kind;
+  kind.placeholder = "NAMES";
+  kind.allowed = fmt::format("{}; several with commas", fmt::join(names, ", "));
+  kind.parse = [names](std::string_view text, std::string_view where) {
+    std::vector<Method> methods;
+    if (text == "all") return methods;
+    while (true) {
+      const auto comma = std::min(text.find(','), text.size());
+      const auto found = std::find(names.begin() + 1, names.end(), text.substr(0, comma));
+      if (found == names.end()) fail_choice(text.substr(0, comma), where, names);
+      methods.push_back(kMethods[found - names.begin() - 1]);
+      if (comma == text.size()) return methods;
+      text.remove_prefix(comma + 1);
+    }
+  };
+  kind.show = [](const std::vector<Method>& methods) {
+    std::string text;
+    for (const Method method : methods) text += (text.empty() ? "" : ",") + std::string(name_of(method));
+    return methods.empty() ? "all" : text;
+  };
+  return kind;
+}
+
 void run(Settings& settings, Session& session) {
   StudyOptions& study = settings.study;
   study.scenes = settings.scene == "all" ? shipped_scenes() : std::vector<std::string>{settings.scene};
   for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
-  if (settings.method != "all") {
+  if (!settings.methods.empty()) {
+    study.methods = settings.methods;
+    study.variations = false;
     // White noise is what the others are measured against.
-    study.methods = {Method::white};
-    for (const Method method : kMethods) {
-      if (name_of(method) == settings.method && method != Method::white) study.methods.push_back(method);
-    }
+    if (std::find(study.methods.begin(), study.methods.end(), Method::white) == study.methods.end())
+      study.methods.insert(study.methods.begin(), Method::white);
   }
   if (settings.quick) study.make_quick();
   std::shared_ptr<VulkanDevice> device;
@@ -56,6 +86,7 @@ void run(Settings& settings, Session& session) {
   } else {
     textures = read_temporal_textures(settings.textures, settings.step, settings.unsafe, session.execution);
   }
+  if (!settings.slices.empty()) textures.slices = read_slices(settings.slices, session.execution);
   run_study(study, textures, device, settings.out, session.execution_showing("validate"));
   session.progress.finish();
   session.output.write(fmt::format("report  {}\n", (settings.out / "report.md").string()));
@@ -88,13 +119,15 @@ Verb validate_verb() {
   verb.arguments.positional(
       "SCENE", settings->scene, any_text("SCENE"),
       "wall, room, poster, bars, slow-pan, fast-pan, cut, all of them by all, or a TOML file.");
-  std::vector<std::pair<std::string, std::string>> methods{{"all", "all"}};
-  for (const Method method : kMethods) methods.emplace_back(name_of(method), name_of(method));
-  verb.arguments.option("--method", settings->method, choice_of<std::string>(methods),
-                        "One method, and white noise to measure it against.");
+  verb.arguments.option(
+      "--method", settings->methods, method_list(),
+      "Some methods, and white noise to measure them against; all adds other block sizes and "
+      "sorting by light.");
   verb.arguments.option(
       "--textures", settings->textures, folder_path(),
       "Folder with mask.png and retarget_atlas.png of a bake; without it they are made on the spot.");
+  verb.arguments.option("--slices", settings->slices, folder_path(),
+                        "Folder with a stack of masks, an image a slice in name order: the method slices.");
   verb.arguments.option("--step", settings->step, offset_or_auto(),
                         "The dither step; must be the one the tiles were baked for, which auto takes.");
   verb.arguments.flag("--unsafe", settings->unsafe, true, "Let a wrong step pass, to see what it costs.");
@@ -110,7 +143,7 @@ Verb validate_verb() {
   verb.arguments.flag("--sort-by-light", study.sort_by_light, true,
                       "Sort by the light alone, without the surface's colour: texture edges are none to it.");
   verb.arguments.option("--seed", study.seed, seed_value(), "Chooses the random numbers.");
-  verb.arguments.flag("--quick", settings->quick, true, "192x128 pixels, 8 frames, 256 reference paths.");
+  verb.arguments.flag("--quick", settings->quick, true, "192x128 pixels, 8 frames, 128 reference paths.");
   verb.arguments.required_option("--out", settings->out, folder_path(), "Where the report goes.", "-o");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;

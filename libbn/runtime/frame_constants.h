@@ -20,7 +20,9 @@ struct FrameConstants {
   std::int32_t bounces, sampling;
   std::int32_t tile_width, tile_height, shift_x, shift_y;
   std::int32_t sort_by_light;
-  std::int32_t unused[3];  // to a whole number of vec4
+  std::int32_t first_level;  // of this frame's mask in level[]
+  std::int32_t paths;
+  std::int32_t unused;  // to a whole number of vec4
 };
 static_assert(sizeof(FrameConstants) == 9 * 16 + 20 * 4);
 

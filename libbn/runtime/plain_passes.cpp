@@ -51,18 +51,17 @@ void render_gbuffer(GBuffer& gbuffer, const PackedScene& scene, const FrameConst
 }
 
 void render_paths(Grid<Colour>& colour, Grid<float>& luminance, const GBuffer& gbuffer, const Seeds& seeds,
-                  const Grid<std::int32_t>& mask, const PackedScene& scene, const FrameConstants& constants,
-                  const Execution& execution) {
+                  const std::vector<std::int32_t>& levels, const PackedScene& scene,
+                  const FrameConstants& constants, const Execution& execution) {
   parallel_for(execution, colour.height(), [&](std::int64_t row) {
-    Tracer tracer(constants, scene.words.data(), mask.data());
+    Tracer tracer(constants, scene.words.data(), levels.data());
     const int y = static_cast<int>(row);
     for (int x = 0; x < colour.width(); ++x) {
       tracer.pixel_x = x;
       tracer.pixel_y = y;
-      tracer.stream = seeds(x, y) ^ (constants.sampling == 0 ? constants.frame_key : 0u);
-      tracer.dimension = 0;
+      const uint seed = seeds(x, y) ^ (constants.sampling == 0 ? constants.frame_key : 0u);
       const Tracer::Seen seen{gbuffer.position(x, y), gbuffer.normal(x, y), gbuffer.albedo(x, y), 0, 0};
-      const vec3 radiance = tracer.render(seen);
+      const vec3 radiance = tracer.render_paths(seen, seed);
       colour(x, y) = {radiance.x, radiance.y, radiance.z};
       luminance(x, y) = tracer.sort_luminance(seen, radiance);
     }

@@ -18,8 +18,8 @@ void render_gbuffer(GBuffer& gbuffer, const PackedScene& scene, const FrameConst
                     const Execution& execution);
 
 void render_paths(Grid<Colour>& colour, Grid<float>& luminance, const GBuffer& gbuffer, const Seeds& seeds,
-                  const Grid<std::int32_t>& mask, const PackedScene& scene, const FrameConstants& constants,
-                  const Execution& execution);
+                  const std::vector<std::int32_t>& levels, const PackedScene& scene,
+                  const FrameConstants& constants, const Execution& execution);
 
 Grid<std::uint32_t> tone_map(const Grid<Colour>& colour);
 

@@ -18,6 +18,8 @@ std::string_view name_of(Method method) {
       return "mask-moved";
     case Method::mask_golden:
       return "mask-golden";
+    case Method::slices:
+      return "slices";
     case Method::sort:
       return "sort";
     case Method::retarget:
@@ -44,7 +46,10 @@ Extent check_rendering(const Scene& scene, const TemporalTextures& textures, con
   if (settings.bounces < 1 || settings.bounces > 8) {
     refuse(fmt::format("{} bounces", settings.bounces), "bounces", "1..8");
   }
+  if (settings.paths < 1 || settings.paths > 64)
+    refuse(fmt::format("{} paths", settings.paths), "paths", "1..64");
   sort_blocks(settings.block, false, 0, 0);  // refuses other sides
+  if (settings.method == Method::slices && textures.slices.empty()) refuse("no stack of masks", "slices", "");
   if (moves_seeds(settings.method) && settings.method != Method::sort && textures.moves.empty()) {
     refuse("no retarget tile", "textures", "");
   }
@@ -81,6 +86,7 @@ class PlainRenderer final : public Renderer {
         execution_(execution),
         padded_(check_rendering(scene, textures, settings)),
         packed_(pack_scene(scene)),
+        levels_(levels_to_sample(textures, settings.method)),
         seeds_(seeds_of_sequence(padded_, settings.seed)),
         digest_(multiset_digest(seeds_)),
         gbuffer_(settings.screen) {}
@@ -100,12 +106,13 @@ class PlainRenderer final : public Renderer {
     }
     result.seeds = seeds_;
     Grid<float> luminance(settings_.screen);
-    render_paths(result.colour, luminance, gbuffer_, seeds_, textures_.mask, packed_, constants, execution_);
+    render_paths(result.colour, luminance, gbuffer_, seeds_, levels_, packed_, constants, execution_);
     if (moves_seeds(settings_.method)) {
       sort_seeds(seeds_, luminance, textures_.mask, tile_shift(tile, textures_.step, frame_),
                  sort_blocks(settings_.block, settings_.jitter, settings_.seed, frame_), execution_);
     }
     result.shown = tone_map(result.colour);
+    result.motion_of_pixel = gbuffer_.motion;
     check_seeds(seeds_, digest_);
     ++frame_;
     return result;
@@ -120,6 +127,7 @@ class PlainRenderer final : public Renderer {
   Execution execution_;
   Extent padded_;
   PackedScene packed_;
+  std::vector<std::int32_t> levels_;
   Seeds seeds_;
   std::uint64_t digest_;
   GBuffer gbuffer_;

@@ -42,6 +42,15 @@ void TemporalTextures::check() const {
   if (mask.count() == 0) refuse("the mask is empty", "");
   const auto [low, high] = std::minmax_element(mask.begin(), mask.end());
   if (*low < 0 || *high > 65535) refuse(fmt::format("mask levels {}..{}", *low, *high), "0..65535");
+  for (const Grid<std::int32_t>& slice : slices) {
+    if (slice.count() == 0 || slice.size() != slices.front().size()) {
+      refuse(fmt::format("a slice of {}x{} after {}x{}", slice.width(), slice.height(),
+                         slices.front().width(), slices.front().height()),
+             "slices of one size");
+    }
+    const auto [least, most] = std::minmax_element(slice.begin(), slice.end());
+    if (*least < 0 || *most > 65535) refuse(fmt::format("slice levels {}..{}", *least, *most), "0..65535");
+  }
   if (motion_range < 0 || motion_range > 8) refuse(fmt::format("motion range {}", motion_range), "0..8");
   const auto variants = static_cast<std::size_t>((2 * motion_range + 1) * (2 * motion_range + 1));
   if (!(moves.empty() && motion_range == 0) && moves.size() != variants) {

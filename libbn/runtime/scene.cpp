@@ -37,6 +37,18 @@ vec3 words(Colour c) { return {c.r, c.g, c.b}; }
                .remedy = ""});
 }
 
+/// Names become names of files and cells of CSV.
+void check_name(const Scene& scene, const std::string& name) {
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
+           c == '_' || c == ' ';
+  };
+  if (name.empty() || name.size() > 64 || name.front() == ' ' ||
+      !std::all_of(name.begin(), name.end(), plain)) {
+    refuse(scene, fmt::format("the name '{}'", name), "1..64 letters, digits, spaces, - and _");
+  }
+}
+
 bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 struct Camera {
@@ -72,6 +84,11 @@ Camera camera_at(const Scene& scene, Extent screen, int frame) {
 }  // namespace
 
 void check_scene(const Scene& scene) {
+  check_name(scene, scene.name);
+  for (const Region& region : scene.regions) {
+    check_name(scene, region.name);
+    if (region.name == "picture") refuse(scene, "a region 'picture': that is the whole picture's name");
+  }
   if (scene.camera.empty()) refuse(scene, "no camera");
   for (std::size_t i = 0; i < scene.camera.size(); ++i) {
     const CameraKey& key = scene.camera[i];
@@ -109,6 +126,17 @@ void check_scene(const Scene& scene) {
       refuse(scene, "checker cells", "0..1023");
     }
   }
+  std::int64_t texels = 0;
+  for (const Grid<Colour>& image : scene.images) {
+    texels += image.size().area();
+    if (image.count() == 0) refuse(scene, "an empty image");
+    for (const Colour& texel : image) check_colour(texel, 1.0f, "texel");
+  }
+  if (texels > kMaxTexels) refuse(scene, fmt::format("{} texels", texels), fmt::format("0..{}", kMaxTexels));
+  for (const Material& material : scene.materials) {
+    if (material.image >= static_cast<int>(scene.images.size())) refuse(scene, "no such image");
+    if (material.image >= 0 && material.checker_u > 0) refuse(scene, "a checker pattern on an image");
+  }
   const auto check_material = [&](int material) {
     if (material < 0 || static_cast<std::size_t>(material) >= scene.materials.size())
       refuse(scene, "no such material");
@@ -130,6 +158,8 @@ void check_scene(const Scene& scene) {
     }
     const Colour e = scene.materials[static_cast<std::size_t>(sphere.material)].emission;
     if (e.r + e.g + e.b > 0.0f) refuse(scene, "a sphere emits light", "rectangles only");
+    if (scene.materials[static_cast<std::size_t>(sphere.material)].image >= 0)
+      refuse(scene, "an image on a sphere", "rectangles only");
   }
   for (const Region& region : scene.regions) {
     if (!(region.x >= 0.0 && region.y >= 0.0 && region.width > 0.0 && region.height > 0.0 &&
@@ -167,16 +197,39 @@ PackedScene pack_scene(const Scene& scene) {
     packed.words.resize(packed.words.size() + 2);
     ++packed.primitives;
   }
+  // Indices are stored as floats, which hold integers up to 2^24: kMaxTexels and what precedes stays below.
+  std::vector<float> first_texel;
+  std::size_t next = packed.words.size() + 3 * scene.materials.size() + lights.size();
+  for (const Grid<Colour>& image : scene.images) {
+    first_texel.push_back(static_cast<float>(next));
+    next += image.count();
+  }
   for (const Material& material : scene.materials) {
     packed.words.emplace_back(words(material.albedo), material.roughness);
     packed.words.emplace_back(words(material.emission), 0.0f);
-    packed.words.emplace_back(words(material.checker_albedo),
-                              static_cast<float>(material.checker_u * 1024 + material.checker_v));
+    if (material.image >= 0) {
+      const auto image = static_cast<std::size_t>(material.image);
+      packed.words.emplace_back(first_texel[image], static_cast<float>(scene.images[image].width()),
+                                static_cast<float>(scene.images[image].height()), -1.0f);
+    } else {
+      packed.words.emplace_back(words(material.checker_albedo),
+                                static_cast<float>(material.checker_u * 1024 + material.checker_v));
+    }
     ++packed.materials;
   }
   for (const float light : lights) packed.words.emplace_back(light, 0.0f, 0.0f, 0.0f);
   packed.lights = static_cast<int>(lights.size());
+  for (const Grid<Colour>& image : scene.images) {
+    for (const Colour& texel : image) packed.words.emplace_back(words(texel), 0.0f);
+  }
   return packed;
+}
+
+std::vector<std::int32_t> levels_to_sample(const TemporalTextures& textures, Method method) {
+  if (method != Method::slices) return {textures.mask.begin(), textures.mask.end()};
+  std::vector<std::int32_t> levels;
+  for (const auto& slice : textures.slices) levels.insert(levels.end(), slice.begin(), slice.end());
+  return levels;
 }
 
 FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
@@ -205,8 +258,10 @@ FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
   constants.light_count = packed.lights;
   constants.bounces = settings.bounces;
   constants.sort_by_light = settings.sort_by_light ? 1 : 0;
+  constants.paths = settings.paths;
+  const bool by_slices = settings.method == Method::slices;
   const bool by_mask = settings.method == Method::mask_still || settings.method == Method::mask_moved ||
-                       settings.method == Method::mask_golden;
+                       settings.method == Method::mask_golden || by_slices;
   constants.sampling = by_mask ? 1 : 0;
   // White noise gets new seeds each frame; a mask turns one point, which is new each frame only where
   // the mask itself is neither moved nor turned in time.
@@ -216,13 +271,20 @@ FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
   };
   if (settings.method == Method::white) constants.frame_key = random(frame);
   if (by_mask) constants.frame_key = random(0);
-  const int highest = *std::max_element(textures.mask.begin(), textures.mask.end());
+  int highest = 0;
+  for (const std::int32_t level : levels_to_sample(textures, settings.method))
+    highest = std::max(highest, level);
   constants.level_shift = highest < 256 ? 23 - 8 : 23 - 16;
   if (settings.method == Method::mask_golden) {
     constants.rotation = static_cast<std::uint32_t>(frame) * kGoldenRatio24 & 0xFFFFFFu;
   }
-  constants.tile_width = textures.mask.width();
-  constants.tile_height = textures.mask.height();
+  const Grid<std::int32_t>& sampled = by_slices ? textures.slices.front() : textures.mask;
+  constants.tile_width = sampled.width();
+  constants.tile_height = sampled.height();
+  if (by_slices) {
+    const auto slice = static_cast<std::size_t>(frame) % textures.slices.size();
+    constants.first_level = static_cast<std::int32_t>(slice * sampled.count());
+  }
   if (settings.method == Method::mask_moved) {
     const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
     constants.shift_x = shift.x;

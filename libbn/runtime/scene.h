@@ -23,6 +23,9 @@ struct PackedScene {
 };
 PackedScene pack_scene(const Scene& scene);
 
+/// What pixels sample by a mask: the mask's levels, or those of all slices, one after the other.
+std::vector<std::int32_t> levels_to_sample(const TemporalTextures& textures, Method method);
+
 /// The constants of frame `frame`: counts, camera now and one frame before (at frame 0: now), and
 /// how pixels get their random numbers.
 FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,

@@ -5,6 +5,8 @@
 
 #include <toml++/toml.h>
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <initializer_list>
 #include <iterator>
@@ -12,6 +14,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "bn/texture.h"
 #include "runtime/scene.h"
 
 namespace bn {
@@ -158,7 +161,7 @@ class Reader {
   }
 
   void read_material(Scene& scene, const toml::table& table) {
-    only(table, {"name", "albedo", "emission", "roughness", "checker", "checker_albedo"});
+    only(table, {"name", "albedo", "emission", "roughness", "checker", "checker_albedo", "image"});
     Material made;
     if (table.contains("albedo")) made.albedo = colour(table, "albedo");
     if (table.contains("emission")) made.emission = colour(table, "emission");
@@ -176,10 +179,50 @@ class Reader {
       made.checker_v = static_cast<int>(cells[1]);
       made.checker_albedo = colour(table, "checker_albedo");
     }
+    if (table.contains("image")) {
+      made.image = static_cast<int>(scene.images.size());
+      scene.images.push_back(read_albedo(need(table, "image"), text(table, "image")));
+    }
     if (!materials_.emplace(text(table, "name"), static_cast<int>(scene.materials.size())).second) {
       fail(table, fmt::format("a second material '{}'", text(table, "name")));
     }
     scene.materials.push_back(made);
+  }
+
+  /// An image beside the scene's file, as reflectances: 8 and 16 bits as sRGB (IEC 61966-2-1), floats as they
+  /// are.
+  Grid<Colour> read_albedo(const toml::node& node, const std::string& name) const {
+    Image image;
+    try {
+      image = read_image(std::filesystem::path(where_).parent_path() / name).image;
+    } catch (const Error& error) {
+      throw Error({.code = error.code(),
+                   .what = error.what(),
+                   .where = fmt::format("{}:{}", where_, node.source().begin.line),
+                   .limit = "",
+                   .remedy = ""});
+    }
+    if (image.size.area() > kMaxTexels)
+      fail(node, fmt::format("{} texels", image.size.area()), fmt::format("1..{}", kMaxTexels));
+    const auto value = [&](std::size_t index) {
+      const std::byte* sample = image.samples.data() + index * bytes_per_sample(image.type);
+      if (image.type == SampleType::f32) {
+        float linear;
+        std::memcpy(&linear, sample, sizeof linear);
+        return linear;
+      }
+      std::uint16_t wide = 0;
+      std::memcpy(&wide, sample, bytes_per_sample(image.type));  // little-endian machines
+      const double shown = wide / (image.type == SampleType::u8 ? 255.0 : 65535.0);
+      return static_cast<float>(shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4));
+    };
+    const std::size_t channels = static_cast<std::size_t>(image.channels);
+    Grid<Colour> albedo(image.size);
+    for (std::size_t i = 0; i < albedo.count(); ++i) {
+      const auto channel = [&](std::size_t c) { return value(i * channels + (channels < 3 ? 0 : c)); };
+      albedo[i] = {channel(0), channel(1), channel(2)};
+    }
+    return albedo;
   }
 
   int material(const toml::table& table) const {

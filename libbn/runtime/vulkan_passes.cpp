@@ -138,8 +138,10 @@ void PassTimer::start(const vk::raii::CommandBuffer& commands) {
   commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *pool_, 0);
 }
 
-void PassTimer::mark(const vk::raii::CommandBuffer& commands, std::string pass) {
-  passes_.push_back(std::move(pass));
+void PassTimer::mark(const vk::raii::CommandBuffer& commands, std::string pass,
+                     std::initializer_list<const DeviceBuffer*> buffers) {
+  passes_.push_back({.pass = std::move(pass)});
+  for (const DeviceBuffer* buffer : buffers) passes_.back().bytes += buffer->bytes;
   commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *pool_,
                           static_cast<std::uint32_t>(passes_.size()));
 }
@@ -149,9 +151,9 @@ std::vector<PassTime> PassTimer::read() const {
   const auto [result, stamps] =
       pool_.getResults<std::uint64_t>(0, count, count * sizeof(std::uint64_t), sizeof(std::uint64_t),
                                       vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
-  std::vector<PassTime> times;
+  std::vector<PassTime> times = passes_;
   for (std::size_t i = 0; i < passes_.size(); ++i) {
-    times.push_back({passes_[i], static_cast<double>(stamps[i + 1] - stamps[i]) * unit_ms_});
+    times[i].milliseconds = static_cast<double>(stamps[i + 1] - stamps[i]) * unit_ms_;
   }
   return times;
 }

@@ -58,8 +58,9 @@ class PassTimer {
   explicit PassTimer(const VulkanDevice& device);
   /// Before the first pass.
   void start(const vk::raii::CommandBuffer& commands);
-  /// After each pass: the time since the last mark is `pass`'s.
-  void mark(const vk::raii::CommandBuffer& commands, std::string pass);
+  /// After each pass: the time since the last mark is `pass`'s, which reads and writes `buffers`.
+  void mark(const vk::raii::CommandBuffer& commands, std::string pass,
+            std::initializer_list<const DeviceBuffer*> buffers = {});
   /// Milliseconds of each pass, in order; after the commands have run.
   std::vector<PassTime> read() const;
 
@@ -67,7 +68,7 @@ class PassTimer {
   static constexpr std::uint32_t kStamps = 32;
   double unit_ms_;
   vk::raii::QueryPool pool_{nullptr};
-  std::vector<std::string> passes_;
+  std::vector<PassTime> passes_;  ///< without their times
 };
 
 /// Sort, retarget and motion choice on the device, equal bit for bit to the functions of
@@ -87,6 +88,8 @@ class VulkanTemporal {
   const DeviceBuffer& motion() const { return motion_; }
   const DeviceBuffer& seeds() const { return seeds_[current_]; }
   const DeviceBuffer& mask() const { return mask_; }
+  const DeviceBuffer& moves() const { return moves_; }
+  const DeviceBuffer& moved_seeds() const { return seeds_[1 - current_]; }
   Seeds download_seeds();
   Offset download_chosen_motion();
 

@@ -51,6 +51,9 @@ class VulkanRenderer final : public Renderer {
       *buffer = device_->make_buffer(pixels * sizeof(vec4));
     }
     shown_ = device_->make_buffer(pixels * 4);
+    const std::vector<std::int32_t> levels = levels_to_sample(textures, settings.method);
+    levels_ = device_->make_buffer(levels.size() * 4);
+    device_->upload(levels_, std::as_bytes(std::span(levels)));
   }
 
   Frame next() override {
@@ -69,20 +72,22 @@ class VulkanRenderer final : public Renderer {
       gbuffer_->record_without_push(
           commands, {&constants_, &words_, &positions_, &normals_, &albedos_, &temporal_.motion()},
           screen.width, tiles_down);
-      timer_.mark(commands, "gbuffer");
+      timer_.mark(commands, "gbuffer", {&words_, &positions_, &normals_, &albedos_, &temporal_.motion()});
       if (frame_ > 0 && retarget) {
         if (reproject) {
           temporal_.record_motion_choice(commands);
-          timer_.mark(commands, "motion");
+          timer_.mark(commands, "motion", {&temporal_.motion()});
         }
         temporal_.record_retarget(commands, tile_shift(tile, textures_.step, frame_ - 1));
-        timer_.mark(commands, "retarget");
+        timer_.mark(commands, "retarget", {&temporal_.moves(), &temporal_.seeds(), &temporal_.moved_seeds()});
       }
       trace_->record_without_push(commands,
                                   {&constants_, &words_, &positions_, &normals_, &albedos_,
-                                   &temporal_.seeds(), &temporal_.mask(), &colours_, &temporal_.luminance()},
+                                   &temporal_.seeds(), &levels_, &colours_, &temporal_.luminance()},
                                   screen.width, tiles_down);
-      timer_.mark(commands, "trace");
+      timer_.mark(commands, "trace",
+                  {&words_, &positions_, &normals_, &albedos_, &temporal_.seeds(), &levels_, &colours_,
+                   &temporal_.luminance()});
     });
     result.times = timer_.read();
     // The seeds as traced, before the sort moves them. Downloads are no part of the frame's time.
@@ -93,11 +98,11 @@ class VulkanRenderer final : public Renderer {
       if (moves_seeds(settings_.method)) {
         temporal_.record_sort(commands, tile_shift(tile, textures_.step, frame_),
                               sort_blocks(settings_.block, settings_.jitter, settings_.seed, frame_).origin);
-        timer_.mark(commands, "sort");
+        timer_.mark(commands, "sort", {&temporal_.luminance(), &temporal_.mask(), &temporal_.seeds()});
       }
       tone_map_->record(commands, {&colours_, &shown_}, ToneMapPush{static_cast<std::int32_t>(screen.area())},
                         screen.area());
-      timer_.mark(commands, "tone map");
+      timer_.mark(commands, "tone map", {&colours_, &shown_});
     });
     for (PassTime& time : timer_.read()) result.times.push_back(std::move(time));
     Grid<vec4> colours(screen);
@@ -107,6 +112,8 @@ class VulkanRenderer final : public Renderer {
     }
     result.shown = Grid<std::uint32_t>(screen);
     download_all(*device_, shown_, result.shown);
+    result.motion_of_pixel = Grid<PixelMotion>(screen);
+    download_all(*device_, temporal_.motion(), result.motion_of_pixel);
     check_seeds(result.seeds, digest_);
     ++frame_;
     return result;
@@ -125,7 +132,7 @@ class VulkanRenderer final : public Renderer {
   VulkanTemporal temporal_;
   std::shared_ptr<const Pass> gbuffer_, trace_, tone_map_;
   PassTimer timer_;
-  DeviceBuffer constants_, words_, positions_, normals_, albedos_, colours_, shown_;
+  DeviceBuffer constants_, words_, levels_, positions_, normals_, albedos_, colours_, shown_;
   int frame_ = 0;
 };
 

@@ -66,6 +66,9 @@ struct TemporalTextures {
   /// (2 * motion_range + 1)^2 variants row by row, the plain one in the middle.
   std::vector<Grid<Offset>> moves = {};
   int motion_range = 0;  ///< 0..8
+  /// For Method::slices: any stack of masks of one size, levels 0..65535; frame t takes slice t mod their
+  /// number.
+  std::vector<Grid<std::int32_t>> slices = {};
 
   void check() const;
   /// The tile for a motion within the range.
@@ -143,6 +146,9 @@ struct Vector {
 /// sky. At most kMaxPrimitives of them, met one after the other by every ray.
 inline constexpr int kMaxPrimitives = 1024;
 
+/// At most so many texels in the images of a scene: 64 MiB on the device.
+inline constexpr std::int64_t kMaxTexels = 4'194'304;
+
 struct Material {
   Colour albedo{0.5f, 0.5f, 0.5f};  ///< 0..1; reflectance at normal incidence where glossy
   Colour emission;                  ///< 0 or more; rectangles only
@@ -150,6 +156,7 @@ struct Material {
   int checker_u = 0;                ///< cells along a rectangle's edges, 0 (no pattern) .. 1023
   int checker_v = 0;
   Colour checker_albedo;  ///< of every other cell
+  int image = -1;         ///< albedo from Scene::images[image]; rectangles only, no checker with it
 };
 
 struct Rectangle {
@@ -185,6 +192,8 @@ struct Scene {
   std::vector<Rectangle> rectangles;  ///< a box of the file is six of these
   std::vector<Sphere> spheres;
   std::vector<Region> regions;
+  /// Albedo textures, linear, 0..1: upright where edge_u goes right and edge_v up. The nearest texel counts.
+  std::vector<Grid<Colour>> images = {};
 };
 
 /// The scenes that come with libbn, by name.
@@ -194,7 +203,7 @@ std::vector<std::string> shipped_scenes();
 /// Errors: io; invalid_input naming file and line: unknown keys, missing materials, numbers that are
 /// not finite or out of range, edges that are not at right angles, too many primitives.
 Scene load_scene(const std::string& name_or_path);
-/// The same from text; `where` names it in messages.
+/// The same from text; `where` names it in messages, and images are looked for in its folder.
 Scene read_scene(std::string_view toml, const std::string& where);
 
 // --- rendering -----------------------------------------------------------------------------------
@@ -205,19 +214,21 @@ enum class Method {
   mask_still,   ///< one mask for all frames
   mask_moved,   ///< the mask moved by the step each frame
   mask_golden,  ///< the mask's levels turned by the golden ratio each frame
+  slices,       ///< one slice of a stack of masks each frame
   sort,         ///< the temporal algorithm: sort only
   retarget,     ///< sort, and the plain retarget tile
   reproject,    ///< sort, and the tile for the mean motion of the picture
 };
 std::string_view name_of(Method method);
 inline constexpr Method kMethods[] = {Method::white,       Method::mask_still, Method::mask_moved,
-                                      Method::mask_golden, Method::sort,       Method::retarget,
-                                      Method::reproject};
+                                      Method::mask_golden, Method::slices,     Method::sort,
+                                      Method::retarget,    Method::reproject};
 
 struct RenderSettings {
   Extent screen{256, 256};  ///< sides 1..4096
   Method method = Method::retarget;
   int bounces = 2;             ///< 1..8 scatterings a path
+  int paths = 1;               ///< a pixel, 1..64: the seed and the path's number decide each
   int block = 8;               ///< sort block's side: 2, 4, 8, 16
   bool jitter = false;         ///< of the block grid
   bool sort_by_light = false;  ///< sort by the light alone, without the surface's colour
@@ -228,13 +239,15 @@ struct RenderSettings {
 struct PassTime {
   std::string pass;
   double milliseconds = 0.0;
+  std::uint64_t bytes = 0;  ///< of the buffers it reads and writes
 };
 
 struct Frame {
-  Grid<Colour> colour;          ///< linear radiance
-  Grid<std::uint32_t> shown;    ///< tone mapped, bytes R, G, B, 255 from low to high
-  Seeds seeds;                  ///< as the frame was traced with
-  Offset motion;                ///< that the seeds were carried by before this frame
+  Grid<Colour> colour;        ///< linear radiance
+  Grid<std::uint32_t> shown;  ///< tone mapped, bytes R, G, B, 255 from low to high
+  Seeds seeds;                ///< as the frame was traced with
+  Offset motion;              ///< that the seeds were carried by before this frame
+  Grid<PixelMotion> motion_of_pixel;
   std::vector<PassTime> times;  ///< empty for the plain renderer
 };
 
@@ -288,6 +301,11 @@ double blurred_rms(const Grid<float>& error, double sigma_px);
 TemporalTextures read_temporal_textures(const std::filesystem::path& folder, std::optional<Offset> step = {},
                                         bool unsafe = false, const Execution& execution = {});
 
+/// A stack of masks: the images of a folder in name order, numbers by their value; the first channel of each.
+/// Errors: io, invalid_input (no images, sizes that differ).
+std::vector<Grid<std::int32_t>> read_slices(const std::filesystem::path& folder,
+                                            const Execution& execution = {});
+
 /// A 64 x 64 mask of 8 bits and its proven tiles for motions of -range..range, made on the spot.
 TemporalTextures make_temporal_textures(int motion_range, const Execution& execution = {});
 
@@ -304,6 +322,7 @@ struct StudyOptions {
   int block = 8;
   bool jitter = false;
   bool sort_by_light = false;
+  bool variations = true;  ///< also other block sizes with retarget, and the tiles with sorting by light
   std::uint64_t seed = 1;
 
   /// A minute's run.
@@ -311,11 +330,13 @@ struct StudyOptions {
 };
 
 /// Renders every scene with every method and writes to `folder`:
-///   errors.csv    scene, method, frame, region: RMSE, blurred RMSE, low-frequency error, flicker
-///   radial.csv    power of the error by frequency, last frame
-///   passes.csv    milliseconds and share of each pass, and its memory
-///   report.md     the summary, with a paragraph's room for each case
-///   SCENE/...png  last frames, and the errors of the first seven frames over their spectra
+///   errors.csv    by scene, variant, frame, region: RMSE, blurred RMSE, power in bands, flicker, averages
+///   radial.csv    power of the error by radial frequency, likewise
+///   passes.csv    milliseconds, share and memory of each pass
+///   summary.csv   by scene, variant, region: error at f <= 0.1 against white noise, dB
+///   report.md     the summary as tables
+///   SCENE/...png  last frames; sheets of errors over their spectra: first frames, methods, block sizes
+///   references/   converged pictures, which an equal run takes from there
 /// `device`: null renders on the processor. Files are written whole or not at all.
 void run_study(const StudyOptions& options, const TemporalTextures& textures,
                std::shared_ptr<VulkanDevice> device, const std::filesystem::path& folder,

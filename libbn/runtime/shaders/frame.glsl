@@ -12,4 +12,6 @@ layout(std430, binding = 0) readonly buffer Frame {
   int bounces, sampling;
   int tile_width, tile_height, shift_x, shift_y;
   int sort_by_light;
+  int first_level;       // of this frame's mask in level[]
+  int paths;
 };

@@ -56,6 +56,17 @@ vec3 render(Seen seen) {
   return emission + trace_from(surface, outwards);
 }
 
+// The mean of so many paths. The golden ratio keeps their streams apart.
+vec3 render_paths(Seen seen, uint seed) {
+  vec3 sum = vec3(0.0f, 0.0f, 0.0f);
+  for (int path = 0; path < paths; ++path) {
+    stream = seed ^ (uint(path) * 0x9E3779B9u);
+    dimension = 0u;
+    sum = sum + render(seen);
+  }
+  return sum * (1.0f / float(paths));
+}
+
 // What the sort orders by: the luminance shown, or (sort_by_light) that of the light alone, without the
 // surface's own colour and emission. A texture's edge is then no edge to the sort.
 float sort_luminance(Seen seen, vec3 colour) {

@@ -22,7 +22,7 @@ float bn_sample(uint seed, uint number) {
   } else {
     int x = (pixel_x + shift_x + int((number * 3242174889u) >> 16)) % tile_width;
     int y = (pixel_y + shift_y + int((number * 2447445414u) >> 16)) % tile_height;
-    uint middle = (uint(level[y * tile_width + x]) * 2u + 1u) << level_shift;
+    uint middle = (uint(level[first_level + y * tile_width + x]) * 2u + 1u) << level_shift;
     bits = (bn_bits(frame_key, number) + middle + rotation) & 0xFFFFFFu;
   }
   return float(bits) * 0.000000059604644775390625f;

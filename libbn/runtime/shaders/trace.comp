@@ -28,13 +28,12 @@ void main() {
   pixel_y = int(gl_GlobalInvocationID.y);
   if (pixel_x >= screen_width || pixel_y >= screen_height) return;
   int index = pixel_y * screen_width + pixel_x;
-  stream = seeds[pixel_y * seed_pitch + pixel_x] ^ (sampling == 0 ? frame_key : 0u);
-  dimension = 0u;
+  uint seed = seeds[pixel_y * seed_pitch + pixel_x] ^ (sampling == 0 ? frame_key : 0u);
   Seen seen;
   seen.position = positions[index];
   seen.normal = normals[index];
   seen.albedo = albedos[index];
-  vec3 colour = render(seen);
+  vec3 colour = render_paths(seen, seed);
   colours[index] = vec4(colour, 1.0);
   luminance[index] = sort_luminance(seen, colour);
 }

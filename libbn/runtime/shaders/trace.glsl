@@ -8,11 +8,13 @@
 // The includer provides: scene[] (vec4, layout below), seeds' sampling through bn_sample(), the frame's
 // constants, and vec3/vec4.
 //
-// scene[]: primitives of 4 vec4 each, then materials of 3 vec4 each, then lights of 1 vec4 each.
+// scene[]: primitives of 4 vec4 each, then materials of 3 vec4 each, then lights of 1 vec4 each, then texels.
 //   quad      (corner, 0) (edge_u, material) (edge_v, 0) (unit normal, area)
 //   sphere    (centre, 1) (radius, material, 0, 0) - -
 //   material  (albedo, roughness; < 0: diffuse) (emission, 0) (second albedo, texture cells along u and v packed)
+//             with an image: its third is (first texel, width, height, -1)
 //   light     (primitive, 0, 0, 0)
+//   texel     (albedo, 0)
 
 // --- vectors -----------------------------------------------------------------------------------
 
@@ -132,6 +134,15 @@ Surface surface_at(vec3 origin, vec3 direction, Hit hit) {
     float along_v = pattern.w - along_u * 1024.0f;
     int cell = int(floor(hit.u * along_u)) + int(floor(hit.v * along_v));
     if ((cell & 1) != 0) albedo = xyz(pattern);
+  } else if (pattern.w < 0.0f) {
+    // The nearest texel; row 0 is on top, where v is 1.
+    int columns = int(pattern.y);
+    int rows = int(pattern.z);
+    int column = int(hit.u * pattern.y);
+    int row = int((1.0f - hit.v) * pattern.z);
+    column = column < columns ? column : columns - 1;
+    row = row < rows ? row : rows - 1;
+    albedo = xyz(scene[int(pattern.x) + row * columns + column]);
   }
   Surface surface;
   surface.position = point + normal * 0.0005f;
