@@ -8,6 +8,9 @@
 
 namespace bn {
 
+/// The window along an axis of `size` pixels.
+double hann_window(int at, int size);
+
 /// Of a part of a picture: windowed (Hann), since a part does not wrap. White noise of variance v reads v at
 /// every frequency, whatever the size.
 class ErrorSpectrum {

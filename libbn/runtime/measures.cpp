@@ -39,16 +39,17 @@ double low_frequency_power(const Grid<float>& picture, double limit) {
   return band_mean(picture.size(), 0.0, limit, [&](int kx, int ky) { return power.at(kx, ky); });
 }
 
+double hann_window(int at, int size) {
+  return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (at + 0.5) / size);
+}
+
 ErrorSpectrum::ErrorSpectrum(const Grid<float>& error) : size_(error.size()) {
-  const auto window = [](int at, int size) {
-    return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * (at + 0.5) / size);
-  };
   std::vector<double> values;
   values.reserve(error.count());
   double squares = 0.0, mean = 0.0;
   for (int y = 0; y < error.height(); ++y) {
     for (int x = 0; x < error.width(); ++x) {
-      const double weight = window(x, error.width()) * window(y, error.height());
+      const double weight = hann_window(x, error.width()) * hann_window(y, error.height());
       values.push_back(error(x, y) * weight);
       squares += weight * weight;
       mean += values.back();

@@ -122,7 +122,7 @@ std::string report_md(const std::vector<SceneResult>& results, const StudyOption
       double sum = 0.0;
       for (const PassTime& time : sequence.passes) sum += time.milliseconds;
       for (const PassTime& time : sequence.passes) {
-        if (sequence.variant.method != Method::reproject) continue;  // it has every pass
+        if (sequence.variant.name != name_of(Method::reproject)) continue;  // it has every pass
         text += fmt::format("| {} | {} | {:.2f} | {:.1f} % | {} |\n", sequence.variant.name, time.pass,
                             time.milliseconds, 100.0 * time.milliseconds / sum, time.bytes / 1024);
       }

@@ -25,6 +25,12 @@ const TemporalTextures& shifting_textures() {
     for (int y = -2; y <= 2; ++y) {
       for (int x = -2; x <= 2; ++x) made.moves.emplace_back(Extent{64, 64}, Offset{x, y});
     }
+    for (int slice = 0; slice < 3; ++slice) {
+      Grid<std::int32_t> levels({24, 16});
+      for (std::size_t i = 0; i < levels.count(); ++i)
+        levels[i] = static_cast<std::int32_t>(random_bits(9, static_cast<std::uint32_t>(slice), i) & 65535);
+      made.slices.push_back(std::move(levels));
+    }
     return made;
   }();
   return textures;
@@ -39,9 +45,8 @@ std::size_t different(const Grid<Colour>& a, const Grid<Colour>& b) {
   return count;
 }
 
-void expect_same(const std::string& scene_name, const RenderSettings& settings, int frames) {
-  SCOPED_TRACE(scene_name + ", " + std::string(name_of(settings.method)));
-  const Scene scene = load_scene(scene_name);
+void expect_same(const Scene& scene, const RenderSettings& settings, int frames) {
+  SCOPED_TRACE(scene.name + ", " + std::string(name_of(settings.method)));
   const auto plain = make_plain_renderer(scene, shifting_textures(), settings);
   const auto vulkan = make_vulkan_renderer(device(), scene, shifting_textures(), settings);
   for (int frame = 0; frame < frames; ++frame) {
@@ -51,21 +56,70 @@ void expect_same(const std::string& scene_name, const RenderSettings& settings, 
     ASSERT_EQ(a.motion, b.motion) << "frame " << frame;
     ASSERT_EQ(different(a.colour, b.colour), 0u) << "frame " << frame;
     ASSERT_EQ(a.shown, b.shown) << "frame " << frame;
+    ASSERT_EQ(a.motion_of_pixel, b.motion_of_pixel) << "frame " << frame;
   }
   EXPECT_TRUE(complaints(*device()).empty()) << complaints(*device()).front();
 }
 
 TEST(Renderer, LavapipeEqualsTheProcessorInEveryMethod) {
   for (const Method method : kMethods) {
-    expect_same("room", {.screen = {67, 45}, .method = method, .bounces = 3, .block = 4, .jitter = true}, 3);
+    expect_same(load_scene("room"),
+                {.screen = {67, 45}, .method = method, .bounces = 3, .block = 4, .jitter = true}, 3);
   }
 }
 
 TEST(Renderer, LavapipeEqualsTheProcessorInEveryScene) {
   for (const std::string& scene : shipped_scenes()) {
-    expect_same(scene, {.screen = {64, 40}, .method = Method::reproject, .block = 2, .sort_by_light = true},
-                3);
+    expect_same(load_scene(scene),
+                {.screen = {64, 40}, .method = Method::reproject, .block = 2, .sort_by_light = true}, 3);
   }
+}
+
+TEST(Renderer, LavapipeEqualsTheProcessorWithManyPaths) {
+  expect_same(load_scene("room"), {.screen = {40, 24}, .method = Method::white, .paths = 5}, 2);
+}
+
+/// A wall of four texels, lit evenly: red and green above, blue and white below.
+Scene picture_scene() {
+  Scene scene = read_scene(R"(
+    name = "picture"
+    sky = [1, 1, 1]
+    fov_degrees = 28
+    camera = [{eye = [0, 0, 4], at = [0, 0, 0]}]
+    material = [{name = "image"}]
+    quad = [{corner = [-1, -1, 0], edge_u = [2, 0, 0], edge_v = [0, 2, 0], material = "image"}]
+  )",
+                           "picture");
+  scene.images.emplace_back(Extent{2, 2});
+  scene.images[0](0, 0) = {1, 0, 0};
+  scene.images[0](1, 0) = {0, 1, 0};
+  scene.images[0](0, 1) = {0, 0, 1};
+  scene.images[0](1, 1) = {1, 1, 1};
+  scene.materials[0].image = 0;
+  return scene;
+}
+
+TEST(Renderer, AnImageStandsUpright) {
+  const auto renderer =
+      make_plain_renderer(picture_scene(), shifting_textures(), {.screen = {32, 32}, .bounces = 1});
+  const Frame frame = renderer->next();
+  const auto shows = [&](int x, int y, float r, float g, float b) {
+    const Colour colour = frame.colour(x, y);
+    EXPECT_NEAR(colour.r, r, 1e-5) << x << ", " << y;
+    EXPECT_NEAR(colour.g, g, 1e-5) << x << ", " << y;
+    EXPECT_NEAR(colour.b, b, 1e-5) << x << ", " << y;
+  };
+  // An evenly lit reflectance is as bright as itself times the sky.
+  shows(4, 4, 1, 0, 0);
+  shows(15, 15, 1, 0, 0);
+  shows(16, 15, 0, 1, 0);
+  shows(4, 28, 0, 0, 1);
+  shows(16, 16, 1, 1, 1);
+  shows(28, 28, 1, 1, 1);
+}
+
+TEST(Renderer, LavapipeEqualsTheProcessorOnAnImage) {
+  expect_same(picture_scene(), {.screen = {33, 31}, .method = Method::retarget}, 3);
 }
 
 TEST(Renderer, APanIsSeenAsItsMotion) {
@@ -159,6 +213,17 @@ TEST(Scenes, MistakesAreNamedWithTheirLine) {
              "[[quad]]\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [1, 1, 0]\nmaterial = 'm'",
          "right angles");
   EXPECT_THROW(load_scene("no-such-scene"), Error);
+  // Names become file names.
+  expect("name = '../x'\n[[camera]]\neye = [0, 0, 4]\nat = [0, 0, 0]\n", "the name '../x'");
+  expect(camera + "[[region]]\nname = 'a,b'\n", "the name 'a,b'");
+  expect(camera + "[[region]]\nname = 'picture'\n", "'picture'");
+  try {
+    read_scene(camera + "[[material]]\nname = 'm'\nimage = 'nowhere.png'\n", "scene.toml");
+    ADD_FAILURE() << "an image that is not there";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code(), ErrorCode::io);
+    EXPECT_NE(std::string(error.what()).find("scene.toml:7: nowhere.png"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Renderer, WrongSettingsAreRefused) {
@@ -175,6 +240,8 @@ TEST(Renderer, WrongSettingsAreRefused) {
   EXPECT_TRUE(refused(shifting_textures(), {.screen = {8, 5000}}));
   EXPECT_TRUE(refused(shifting_textures(), {.bounces = 9}));
   EXPECT_TRUE(refused(shifting_textures(), {.block = 5}));
+  EXPECT_TRUE(refused(shifting_textures(), {.paths = 0}));
+  EXPECT_TRUE(refused({.mask = test::mask_64(), .step = {1, 1}}, {.method = Method::slices}));
   EXPECT_TRUE(refused({.mask = test::mask_64(), .step = {1, 1}}, {.method = Method::retarget}));
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bn/texture.h"
+#include "runtime/study.h"
 #include "runtime/test_textures.h"
 
 namespace bn {
@@ -108,25 +109,88 @@ TEST_F(BakedFolder, RefusesAnotherMaskAndOtherSizes) {
   EXPECT_NE(refusal(), "");
 }
 
+TEST(Measures, AChangeAlongTheMotionIsNone) {
+  // A region of a scene moves against the camera.
+  Scene scene = load_scene("slow-pan");
+  const Extent screen{200, 100};
+  const Region region{"r", 0.2, 0.2, 0.2, 0.2};
+  EXPECT_EQ(region_at(scene, region, screen, 0)->left, 40);
+  EXPECT_EQ(region_at(scene, region, screen, 16)->left, 20);
+  EXPECT_EQ(region_at(scene, region, screen, 16)->width, 40);
+  EXPECT_EQ(region_at(scene, region, screen, 48)->width, 20);
+  EXPECT_FALSE(region_at(scene, region, screen, 56));
+  EXPECT_EQ(region_at(scene, {.name = "picture"}, screen, 56)->width, 200);
+}
+
+StudyOptions small_study(const std::string& scene) {
+  StudyOptions options;
+  options.scenes = {scene};
+  options.methods = {Method::white, Method::retarget};
+  options.variations = false;
+  options.screen = {48, 32};
+  options.frames = 3;
+  options.reference_samples = 4;
+  return options;
+}
+
+TEST(Study, ReferencesAreKeptAndDamagedOnesMadeAgain) {
+  const auto folder = fresh_folder("references");
+  const auto run = [&] {
+    run_study(small_study("slow-pan"), test::proven_textures(), nullptr, folder, {.threads = 1});
+    std::ifstream file(folder / "errors.csv");
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  const std::string once = run();
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder / "references"))
+    files.push_back(entry.path());
+  ASSERT_EQ(files.size(), 4u) << "a view a frame";
+  const auto written = std::filesystem::last_write_time(files[0]);
+  std::filesystem::resize_file(files[1], 100);
+  EXPECT_EQ(run(), once);
+  EXPECT_EQ(std::filesystem::last_write_time(files[0]), written);
+  EXPECT_GT(std::filesystem::file_size(files[1]), 100u);
+  // All frames, all regions, though the camera moves.
+  EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1 + 2 * 4 * 3);
+}
+
+TEST(Slices, AreReadInNameOrderAndOneSize) {
+  const auto folder = fresh_folder("slices");
+  const auto write = [&](const std::string& name, Extent size, int level) {
+    Image image{.size = size, .channels = 1, .type = SampleType::u8, .samples = {}};
+    image.samples.resize(static_cast<std::size_t>(size.area()), static_cast<std::byte>(level));
+    write_image(folder / name, image, {});
+  };
+  EXPECT_THROW(read_slices(folder), Error) << "none";
+  EXPECT_THROW(read_slices(folder / "nowhere"), Error);
+  write("slice_10.png", {4, 4}, 3);
+  write("slice_9.png", {4, 4}, 2);
+  write("slice_009b.png", {4, 4}, 1);
+  const auto slices = read_slices(folder);
+  ASSERT_EQ(slices.size(), 3u);
+  EXPECT_EQ(slices[0][0], 2);
+  EXPECT_EQ(slices[1][0], 1);
+  EXPECT_EQ(slices[2][0], 3);
+  write("slice_11.png", {4, 8}, 3);
+  EXPECT_THROW(read_slices(folder), Error) << "another size";
+}
+
 TEST(Study, WritesItsFilesWholeAndTheSameEachTime) {
-  const auto run = [](const std::string& name) {
-    const auto folder = fresh_folder(name);
-    StudyOptions options;
-    options.scenes = {"poster"};
-    options.methods = {Method::white, Method::retarget};
-    options.screen = {48, 32};
-    options.frames = 2;
-    options.reference_samples = 4;
+  const auto run = [](const std::string& folder_name) {
+    const auto folder = fresh_folder(folder_name);
+    StudyOptions options = small_study("poster");
+    options.variations = true;
     run_study(options, test::proven_textures(), nullptr, folder, {.threads = 1});
     std::ifstream file(folder / "errors.csv");
-    EXPECT_TRUE(std::filesystem::exists(folder / "poster" / "retarget-first-frames.png"));
+    for (const char* name : {"first-frames.png", "methods.png", "blocks.png", "retarget.png"})
+      EXPECT_TRUE(std::filesystem::exists(folder / "poster" / name)) << name;
     EXPECT_TRUE(std::filesystem::exists(folder / "report.md"));
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   const std::string once = run("study_1");
   EXPECT_EQ(run("study_2"), once);
-  // A header, and two methods, three frames, three regions.
-  EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1 + 2 * 3 * 3);
+  // A header, and two methods, three more block sizes and two by light, four frames, three regions.
+  EXPECT_EQ(std::count(once.begin(), once.end(), '\n'), 1 + 7 * 4 * 3);
 }
 
 TEST(Study, RefusesBeforeItWrites) {
