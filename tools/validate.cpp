@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bn/report.h"
 #include "bn/runtime.h"
 #include "tools/verb.h"
 
@@ -89,7 +90,8 @@ void run(Settings& settings, Session& session) {
   if (!settings.slices.empty()) textures.slices = read_slices(settings.slices, session.execution);
   run_study(study, textures, device, settings.out, session.execution_showing("validate"));
   session.progress.finish();
-  session.output.write(fmt::format("report  {}\n", (settings.out / "report.md").string()));
+  write_study_report(settings.out, settings.out / "report.html", session.execution);
+  session.output.write(fmt::format("report  {}\n", (settings.out / "report.html").string()));
 }
 
 }  // namespace

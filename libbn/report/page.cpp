@@ -71,13 +71,10 @@ std::string page_html(const Page& page, const std::vector<std::string>& svg) {
       "dark\">\n<meta "
       "http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; style-src "
       "'unsafe-inline'\">\n<meta name=\"generator\" content=\"bn {}\">\n<link rel=\"icon\" "
-      "href=\"data:,\">\n<title>Texture "
-      "report</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n<header><h1>Texture "
-      "report</h1>\n<p>Made by bn {}. Power "
-      "is |F|²/(N·variance), so white noise reads 1 at every frequency; frequencies are in cycles/pixel. A "
-      "click on a "
-      "picture shows it larger.</p></header>\n",
-      kVersion, kStyle, kVersion);
+      "href=\"data:,\">\n<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n<header><h1>{}</"
+      "h1>\n<p>Made "
+      "by bn {}. {}</p></header>\n",
+      kVersion, page.title, kStyle, page.title, kVersion, page.introduction);
   if (!page.notes.empty()) {
     html += "<aside class=\"notes\"><b>Notes</b><ul>";
     for (const std::string& note : page.notes) html += fmt::format("<li>{}</li>", escaped(note));

@@ -10,6 +10,11 @@
 namespace bn::report {
 
 struct Page {
+  std::string title = "Texture report";
+  std::string introduction =  ///< HTML
+      "Power is |F|²/(N·variance), so white noise reads 1 at every frequency; frequencies are in "
+      "cycles/pixel. A "
+      "click on a picture shows it larger.";
   std::vector<std::string> names;  ///< of the sections
   std::vector<std::string> kinds;  ///< "mask", "retarget set", "volume"
   std::vector<Section> sections;

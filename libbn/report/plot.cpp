@@ -38,7 +38,7 @@ struct StyleFile {
 
 /// In the order of PlotStyle.
 const StyleFile& style_file(PlotStyle style) {
-  static constexpr std::array<StyleFile, 7> kFiles{{
+  static constexpr std::array<StyleFile, 9> kFiles{{
       {
 #include "report/power.gnuplot.inc"
           , "lines", kHalfOfThePage},
@@ -60,6 +60,12 @@ const StyleFile& style_file(PlotStyle style) {
       {
 #include "report/moves.gnuplot.inc"
           , "boxes", kThirdOfThePage},
+      {
+#include "report/error_power.gnuplot.inc"
+          , "lines", kHalfOfThePage},
+      {
+#include "report/error_frames.gnuplot.inc"
+          , "linespoints", kHalfOfThePage},
   }};
   return kFiles[static_cast<std::size_t>(style)];
 }

@@ -9,7 +9,17 @@
 namespace bn::report {
 
 /// One file of scripts/plots each.
-enum class PlotStyle { power, power_in_time, anisotropy, autocorrelation, histogram, residual, moves };
+enum class PlotStyle {
+  power,
+  power_in_time,
+  anisotropy,
+  autocorrelation,
+  histogram,
+  residual,
+  moves,
+  error_power,
+  error_frames
+};
 
 /// What a curve stands for decides its colour and line; see scripts/plots/common.gnuplot.
 enum class Role { white, reference, texture };

@@ -108,6 +108,8 @@ void forge_hash(const std::filesystem::path& path) {
   write_bytes(path, bytes);
 }
 
+std::string slice_name(int slice) { return "slice_" + std::to_string(slice) + ".png"; }
+
 class ValidateTextures : public ValidateVerb {
  protected:
   ValidateTextures() {
@@ -138,7 +140,20 @@ TEST_F(ValidateTextures, UnsafeShowsWhatAWrongStepCosts) {
   arguments.insert(arguments.begin(), "validate");
   const auto result = run_bn(arguments, {.folder = scratch_.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_TRUE(std::filesystem::exists(scratch_ / "out" / "report.md"));
+  EXPECT_TRUE(std::filesystem::exists(scratch_ / "out" / "report.html"));
+}
+
+TEST_F(ValidateTextures, SlicesAreAMethod) {
+  std::filesystem::create_directory(scratch_ / "stack");
+  for (const int i : {1, 2}) write_image(scratch_ / "stack" / slice_name(i), simple_mask(16), {});
+  const auto result =
+      run_bn({"validate", "wall", "--device", "cpu", "--size", "16x16", "--frames", "1", "--reference", "2",
+              "--slices", "stack", "--method", "slices,sort", "-o", "out"},
+             {.folder = scratch_.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(read_bytes(scratch_ / "out" / "summary.csv").find("wall,slices,picture"), std::string::npos);
+  std::filesystem::remove_all(scratch_ / "out");
+  expect_failure(2, {"wall", "--device", "cpu", "--slices", "nowhere"}, {"nowhere"});
 }
 
 TEST_F(ValidateTextures, OtherPixelsThanRecordedAreRefused) {
