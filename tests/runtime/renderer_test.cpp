@@ -131,6 +131,24 @@ TEST(Renderer, APanIsSeenAsItsMotion) {
 }
 
 /// The mean radiance of a picture, over many frames of white noise.
+// The flat scene, rendered: what remains at frame 8 is what the flat model says (flat_model_test.cpp).
+TEST(Renderer, TheFlatSceneReachesTheFiguresOfTheModel) {
+  const auto frame_8 = [](Method method, int block) {
+    const auto renderer =
+        make_vulkan_renderer(device(), load_scene("wall"), test::proven_textures(),
+                             {.screen = {256, 256}, .method = method, .bounces = 1, .block = block});
+    for (int frame = 0; frame < 8; ++frame) renderer->next();
+    const Grid<Colour> colour = renderer->next().colour;
+    Grid<float> shown(colour.size());
+    for (std::size_t i = 0; i < shown.count(); ++i) shown[i] = colour[i].r;  // all is grey
+    return 10.0 * std::log10(low_frequency_power(shown, 0.1));
+  };
+  EXPECT_NEAR(frame_8(Method::sort, 8), -3.4, 1.0);
+  EXPECT_LE(frame_8(Method::retarget, 2), -9.0);
+  EXPECT_LE(frame_8(Method::retarget, 8), -17.0);
+  EXPECT_LE(frame_8(Method::retarget, 16), -19.5);
+}
+
 double mean_radiance(const Scene& scene, int bounces, int frames) {
   const auto renderer = make_plain_renderer(
       scene, shifting_textures(), {.screen = {32, 32}, .method = Method::white, .bounces = bounces});
