@@ -2,7 +2,7 @@
 //
 // Low-frequency error is stated against white noise: the power at 0 < f <= 0.1 cycles per pixel that a method
 // leaves in a region, over the power that white noise leaves there, in dB, both summed over the same frames.
-// A textures' worth shows after some frames, so the first half of the sequence is not counted.
+// A texture's worth shows after some frames, so the first half of the sequence is not counted.
 //
 // Everything that can be refused is refused before the first file is written.
 

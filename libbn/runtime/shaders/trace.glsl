@@ -1,6 +1,6 @@
 // The renderer's arithmetic: camera, intersection, materials, light transport.
 //
-// This one text is compiled twice, as GLSL and as C++ (inside struct Tracer of trace.cpp), so it keeps
+// This one text is compiled twice, as GLSL and as C++ (inside struct Tracer of plain_passes.cpp), so it keeps
 // to what both languages share: no swizzles, no built-in vector functions, f on every float literal.
 // Only +, -, *, 1/x, sqrt and comparisons are used, which IEEE fixes; sine and cosine are polynomials
 // of our own. So a device that rounds like IEEE and is kept from contracting renders the same bits.
