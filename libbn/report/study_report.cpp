@@ -226,9 +226,9 @@ std::string pass_table(const Study& study, const std::string& scene) {
       "scope=\"col\">pass</th><th scope=\"col\">time</th><th scope=\"col\">of the frame</th><th "
       "scope=\"col\">published</th><th scope=\"col\">buffers read and "
       "written</th></tr></thead><tbody>{}</tbody>"
-      "</table></div>\n<p>Medians over the frames. Published: Heitz and Belcour 2019, on a GPU, with "
-      "textures of "
-      "16.1 + 12.1 + 980 + 7920 KB.</p>\n",
+      "</table></div>\n<p>Medians over the frames. Published: measured on a GPU, with textures of 16.1 + "
+      "12.1 + "
+      "980 + 7920 KB.</p>\n",
       rows);
 }
 
