@@ -107,8 +107,16 @@ class Browser : public ::testing::Test {
         EXPECT_NE(dom.find(text), std::string::npos) << dom.substr(0, 900);
       }
     }
-    chromium(program, folder / "profile", {"--dump-dom", "file://" + (folder / "r.html").string()}, messages);
+    const std::string address = "file://" + (folder / "r.html").string();
+    chromium(program, folder / "profile", {"--dump-dom", address}, messages);
     EXPECT_EQ(messages.find("CONSOLE"), std::string::npos) << messages;
+
+    // On paper a section takes one or two pages.
+    const auto pdf = folder / "r.pdf";
+    chromium(program, folder / "profile", {"--print-to-pdf=" + pdf.string(), address}, messages);
+    const std::size_t pages = count_of(bytes_of(pdf), "/Type /Page\n");
+    EXPECT_GE(pages, 2u);
+    EXPECT_LE(pages, 2 * count_of(page, "<section"));
   }
 
   TemporaryFolder folder;
