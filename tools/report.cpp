@@ -17,9 +17,13 @@ struct Settings {
 };
 
 std::string verdict_of(const ReportSummary& summary) {
-  const std::string judged = summary.failed == 0 ? "all within their thresholds"
-                                                 : fmt::format("{} miss a threshold", summary.failed);
-  return summary.not_judged == 0 ? judged : fmt::format("{}, {} not judged", judged, summary.not_judged);
+  const int judged = summary.masks + summary.retarget_sets + summary.volumes - summary.not_judged;
+  const std::string verdict = judged == 0           ? "none judged"
+                              : summary.failed == 0 ? "all within their thresholds"
+                                                    : fmt::format("{} miss a threshold", summary.failed);
+  return judged == 0 || summary.not_judged == 0
+             ? verdict
+             : fmt::format("{}, {} not judged", verdict, summary.not_judged);
 }
 
 void run(const Settings& settings, Session& session) {
