@@ -99,7 +99,7 @@ std::string pan_table(const TemporalTextures& base, Session& session) {
       "| radius | edges of | sorted by | pan, pixels a frame | plain, dB | reprojected, dB | gain | seeds "
       "that cross an "
       "edge: plain | reprojected |\n|---|---|---|---|---|---|---|---|---|\n";
-  for (const int radius : {10, 6, 2}) {
+  for (const int radius : {10, 6, 2, 1}) {
     TemporalTextures textures = base;
     textures.motion_range = 4;
     textures.moves.clear();

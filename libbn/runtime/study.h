@@ -61,6 +61,11 @@ Grid<T> crop(const Grid<T>& picture, PixelRect rect) {
 Grid<float> luminance_of(const Grid<Colour>& colour);
 Grid<float> difference(const Grid<float>& a, const Grid<float>& b);
 
+/// What changed between two frames' errors where the picture moved by whole pixels of `motion`: each pixel
+/// less the one it comes from. `known` is the share of pixels that were in view in both; the others read 0.
+Grid<float> change_along_motion(const Grid<float>& error, const Grid<float>& last,
+                                const Grid<PixelMotion>& motion, double& known);
+
 // --- converged pictures ------------------------------------------------------------------------------
 
 struct Reference {

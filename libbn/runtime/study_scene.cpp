@@ -17,27 +17,6 @@ constexpr double kFlickerBlur_px = 1.5;
 constexpr int kFirstFrames = 7;
 constexpr int kCropSide = 64;
 
-/// Moves every pixel of the last frame's error along with the picture, and takes it off this frame's.
-/// `known` counts the pixels that were in view in both; the others read 0.
-Grid<float> change_along_motion(const Grid<float>& error, const Grid<float>& last,
-                                const Grid<PixelMotion>& motion, double& known) {
-  Grid<float> change(error.size());
-  const auto whole = [](int fixed) { return (fixed + 128) >> 8; };
-  std::int64_t count = 0;
-  for (int y = 0; y < error.height(); ++y) {
-    for (int x = 0; x < error.width(); ++x) {
-      const PixelMotion moved = motion(x, y);
-      if (moved.x == kNoMotion) continue;
-      const int from_x = x - whole(moved.x), from_y = y - whole(moved.y);
-      if (from_x < 0 || from_y < 0 || from_x >= error.width() || from_y >= error.height()) continue;
-      change(x, y) = error(x, y) - last(from_x, from_y);
-      ++count;
-    }
-  }
-  known = static_cast<double>(count) / static_cast<double>(error.count());
-  return change;
-}
-
 /// A square in the middle of the first region of the scene, or of the picture.
 PixelRect crop_at(const SceneResult& result, Extent screen, int frame) {
   PixelRect rect{0, 0, screen.width, screen.height};
@@ -199,6 +178,25 @@ Grid<float> difference(const Grid<float>& a, const Grid<float>& b) {
   Grid<float> result(a.size());
   for (std::size_t i = 0; i < result.count(); ++i) result[i] = a[i] - b[i];
   return result;
+}
+
+Grid<float> change_along_motion(const Grid<float>& error, const Grid<float>& last,
+                                const Grid<PixelMotion>& motion, double& known) {
+  Grid<float> change(error.size());
+  const auto whole = [](int fixed) { return (fixed + 128) >> 8; };
+  std::int64_t count = 0;
+  for (int y = 0; y < error.height(); ++y) {
+    for (int x = 0; x < error.width(); ++x) {
+      const PixelMotion moved = motion(x, y);
+      if (moved.x == kNoMotion) continue;
+      const int from_x = x - whole(moved.x), from_y = y - whole(moved.y);
+      if (from_x < 0 || from_y < 0 || from_x >= error.width() || from_y >= error.height()) continue;
+      change(x, y) = error(x, y) - last(from_x, from_y);
+      ++count;
+    }
+  }
+  known = static_cast<double>(count) / static_cast<double>(error.count());
+  return change;
 }
 
 const Sequence* SceneResult::find(std::string_view variant) const {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bn/texture.h"
+#include "runtime/error_spectrum.h"
 #include "runtime/study.h"
 #include "runtime/test_textures.h"
 
@@ -109,8 +110,42 @@ TEST_F(BakedFolder, RefusesAnotherMaskAndOtherSizes) {
   EXPECT_NE(refusal(), "");
 }
 
-TEST(Measures, AChangeAlongTheMotionIsNone) {
-  // A region of a scene moves against the camera.
+TEST(Measures, BandsOfWhiteNoiseReadItsVariance) {
+  const ErrorSpectrum spectrum(white_noise({256, 256}));
+  double low = 0.0;
+  for (const double high : kBandEdges) {
+    EXPECT_NEAR(spectrum.band(low, high), 1.0 / 12.0, 0.15 / 12.0) << low << ".." << high;
+    low = high;
+  }
+  const RadialCurve radial = spectrum.radial();
+  double sum = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < radial.power.size(); ++i) {
+    if (std::isnan(radial.power[i])) continue;
+    sum += radial.power[i] * static_cast<double>(radial.count[i]);
+    count += static_cast<double>(radial.count[i]);
+  }
+  EXPECT_NEAR(sum / count, 1.0 / 12.0, 0.05 / 12.0);
+}
+
+TEST(Measures, WhatMovesWithThePictureIsNoChange) {
+  const Extent screen{40, 30};
+  const Grid<float> last = white_noise(screen);
+  Grid<float> error(screen, 5.0f);
+  Grid<PixelMotion> motion(screen, {3 * 256 + 100, -2 * 256 - 100});  // nearly 3.4 right, 2.4 up
+  for (int y = 0; y < 28; ++y) {
+    for (int x = 3; x < 40; ++x) error(x, y) = last(x - 3, y + 2);
+  }
+  motion(20, 20) = {kNoMotion, kNoMotion};
+  error(20, 20) = 7.0f;
+  double known = 0.0;
+  const Grid<float> change = change_along_motion(error, last, motion, known);
+  for (const float value : change) EXPECT_EQ(value, 0.0f);
+  EXPECT_NEAR(known, (37.0 * 28.0 - 1.0) / (40.0 * 30.0), 1e-12);
+  error(20, 10) += 0.25f;
+  EXPECT_NEAR(change_along_motion(error, last, motion, known)(20, 10), 0.25f, 1e-6f);
+}
+
+TEST(Measures, RegionsFollowThePan) {
   Scene scene = load_scene("slow-pan");
   const Extent screen{200, 100};
   const Region region{"r", 0.2, 0.2, 0.2, 0.2};
