@@ -13,6 +13,7 @@
 #include <set>
 
 #include "bn/report.h"
+#include "bn/texture.h"
 
 namespace bn::report {
 namespace {
@@ -89,30 +90,6 @@ std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, cons
     return a.job.order != b.job.order ? a.job.order < b.job.order : natural_less(a.name, b.name);
   });
   return found;
-}
-
-bool natural_less(std::string_view a, std::string_view b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (digit(a[i]) && digit(b[j])) {
-      const auto number = [&](std::string_view text, std::size_t& at) {
-        while (at < text.size() && text[at] == '0') ++at;
-        const std::size_t begin = at;
-        while (at < text.size() && digit(text[at])) ++at;
-        return text.substr(begin, at - begin);
-      };
-      const std::string_view left = number(a, i), right = number(b, j);
-      if (left.size() != right.size()) return left.size() < right.size();
-      if (left != right) return left < right;
-    } else if (a[i] != b[j]) {
-      return a[i] < b[j];
-    } else {
-      ++i, ++j;
-    }
-  }
-  if (a.size() - i != b.size() - j) return a.size() - i < b.size() - j;
-  return a < b;  // equal but for leading zeros
 }
 
 }  // namespace bn::report

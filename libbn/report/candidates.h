@@ -31,7 +31,4 @@ struct Candidate {
 std::vector<Candidate> candidates_in(const std::filesystem::path& folder, bool prefixed,
                                      const Execution& execution, std::vector<std::string>& notes);
 
-/// Names as people order them: digits by their value.
-bool natural_less(std::string_view a, std::string_view b);
-
 }  // namespace bn::report

@@ -108,6 +108,9 @@ FileContent read_image(const std::filesystem::path& path, const Execution& execu
 /// Errors: io; invalid_input (an extension, sample type or shape that the format cannot hold).
 void write_image(const std::filesystem::path& path, const Image& image, Metadata metadata);
 
+/// Whether name `a` comes before `b` as people order names: digits by their value, so slice_2 before slice_10.
+bool natural_less(std::string_view a, std::string_view b);
+
 /// Throws what write_image() would throw for this path and type, without writing: unknown
 /// extension, unfit sample type, missing folder, no permission. Call it before the work starts.
 void check_writable(const std::filesystem::path& path, SampleType type, int channels);
