@@ -30,7 +30,7 @@ void ViewLink::parameters(Parameters& p) {
 
 void draw_link_controls(ViewLink& link) {
   if (button("Fit", true, "The whole picture (F, or a double click on it)"))
-    link.zoom = 0.0, link.centre_x = link.centre_y = 0.5;
+    link.fit();
   ImGui::SameLine();
   if (button("1:1", true, "One texel to a pixel of the screen (1)")) link.zoom = 1.0;
   ImGui::SameLine();
@@ -139,7 +139,7 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
       link.centre_x = (x - (io.MousePos.x - middle_x) / zoom) / w;
       link.centre_y = (y - (io.MousePos.y - middle_y) / zoom) / h;
     }
-    if (hovered && ImGui::IsMouseDoubleClicked(0)) link.zoom = 0.0, link.centre_x = link.centre_y = 0.5;
+    if (hovered && ImGui::IsMouseDoubleClicked(0)) link.fit();
     link.centre_x = std::clamp(link.centre_x, -1.0, 2.0);
     link.centre_y = std::clamp(link.centre_y, -1.0, 2.0);
 

@@ -39,6 +39,7 @@ struct ViewLink {
   std::optional<Offset> cursor = {};  ///< texel under the mouse in any of the views, of the last frame
 
   void parameters(Parameters& p);
+  void fit() { zoom = 0.0, centre_x = centre_y = 0.5; }
 };
 
 /// The switches of a link: fit, 1:1, zoom in and out, nearest or linear, 3 x 3. `name` tells several sets

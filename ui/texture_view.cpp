@@ -1,27 +1,234 @@
 #include "ui/texture_view.h"
 
-#include "bn/texture.h"
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
 #include "ui/app.h"
+#include "ui/keys.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
+namespace {
 
-void TextureView::open(App& app, const std::filesystem::path& path) try {
-  const Levels levels = levels_of_channel(read_image(path).image, 0);
-  Picture picture{.size = levels.value.size(), .channels = 1, .values = {}};
-  for (const auto level : levels.value) picture.values.push_back(static_cast<float>(level));
-  view_.set(std::move(picture));
+constexpr std::array<const char*, 2> kCuts{"XY", "XZ"};
+constexpr float kNarrowEm = 72.0f;  ///< below this width, the columns on the right become one
+
+/// The channels' names, as many as there are.
+std::vector<const char*> channel_words(int channels) {
+  static constexpr std::array<const char*, 4> kWords{"R", "G", "B", "A"};
+  std::vector<const char*> words{"All"};
+  words.insert(words.end(), kWords.begin(), kWords.begin() + std::min(channels, 4));
+  return words;
+}
+
+/// Power in decibels as grey, DC in the middle.
+Picture spectrum_picture(const PowerSpectrum& power) {
+  const Grid<double> values = centred_power(power);
+  const Grid<std::uint8_t> grey = log_picture(power);
+  Picture picture{.size = grey.size(), .channels = 1, .values = {}, .low = 0.0f, .high = 255.0f};
+  picture.values.assign(grey.begin(), grey.end());
+  picture.describe = [values](int x, int y) {
+    const double fx = (x - values.width() / 2) / static_cast<double>(values.width());
+    const double fy = (y - values.height() / 2) / static_cast<double>(values.height());
+    return fmt::format("f = ({:.3f}, {:.3f}), power {:.3g}", fx, fy, values(x, y));
+  };
+  return picture;
+}
+
+}  // namespace
+
+void TextureView::open(const std::filesystem::path& path) {
   path_ = path;
-} catch (...) {
-  app.report_in_flight();
+  opened_.clear();
+  section_.cut = {};
+  section_.channel = -1;
+  slice_ = row_ = 0;
 }
 
-void TextureView::draw(App&) {
+void TextureView::parameters(Parameters& p) {
+  p("texture.path", path_);
+  p("texture.channel", section_.channel, -1, 3);
+  p("texture.xz", section_.xz);
+  p("texture.slice", slice_, 0, 65535);
+  p("texture.row", row_, 0, 65535);
+  p("texture.columns", section_.cut.columns, 1, 65536);
+  p("texture.rows", section_.cut.rows, 1, 65536);
+  p("texture.whole_stack", whole_stack_);
+  p("texture.thresholds", thresholds_, 0, 4);
+  p("texture.fps", frames_per_second_, 1, 60);
+  link_.parameters(p);
+}
+
+void TextureView::take(std::shared_ptr<const TextureFile> texture) {
+  // Settings of a session or of an undone step are kept where they fit.
+  texture_ = std::move(texture);
+  if (section_.cut == AtlasCut{} || !fits(*texture_, section_.cut)) section_.cut = guess_cut(*texture_);
+  stale_ = true;
+  playing_ = false;
+  analysed_ = {};
+  analysis_.reset();
+  verdict_.reset();
+  spectrum_.clear();
+  verifying_.stop();
+  if (texture_->metadata) {
+    verifying_.start([path = path_](const Execution& execution) { return verify_path(path, execution); }, 1);
+  }
+}
+
+void TextureView::update(App& app) {
+  if (opened_ != path_ && !path_.empty()) {
+    opened_ = path_;
+    loading_.start([path = path_](const Execution& execution) {
+      return std::make_shared<const TextureFile>(read_texture(path, execution));
+    });
+  }
+  try {
+    if (auto texture = loading_.poll()) {
+      take(std::move(*texture));
+      app.say(fmt::format("Opened {}", path_.string()));
+    }
+  } catch (...) {
+    app.report_in_flight();
+    path_ = texture_ ? texture_->path : std::filesystem::path();
+    opened_ = path_;
+  }
+  try {
+    if (auto verdict = verifying_.poll()) verdict_ = std::move(*verdict);
+  } catch (...) {
+    app.report_in_flight();
+  }
+  try {
+    if (auto analysis = analysing_.poll()) {
+      analysis_ = std::move(*analysis);
+      spectrum_.set(spectrum_picture(section_.xz && !analysis_->in_time.half.empty() ? analysis_->in_time
+                                                                                     : analysis_->plane));
+    }
+  } catch (...) {
+    app.report_in_flight();
+  }
+  if (!texture_) return;
+
+  const int slices = slice_count(*texture_, section_.cut);
+  if (slices < 2) section_.xz = false;
+  if (playing_) {
+    since_slice_s_ += static_cast<double>(ImGui::GetIO().DeltaTime);
+    const auto steps = static_cast<int>(since_slice_s_ * frames_per_second_);
+    since_slice_s_ -= static_cast<double>(steps) / frames_per_second_;
+    int& position = section_.xz ? row_ : slice_;
+    position = (position + steps) % (section_.xz ? slice_size(*texture_, section_.cut).height : slices);
+  }
+  slice_ = std::clamp(slice_, 0, slices - 1);
+  row_ = std::clamp(row_, 0, slice_size(*texture_, section_.cut).height - 1);
+  section_.channel = std::min(section_.channel, texture_->images[0].channels - 1);
+  section_.index = section_.xz ? row_ : slice_;
+  if (stale_ || !(section_ == shown_)) {
+    if (shown_.xz != section_.xz && analysis_) {
+      spectrum_.set(spectrum_picture(section_.xz && !analysis_->in_time.half.empty() ? analysis_->in_time
+                                                                                     : analysis_->plane));
+    }
+    picture_.set(picture_of(*texture_, section_));
+    shown_ = section_;
+    stale_ = false;
+  }
+  update_analysis();
+}
+
+void TextureView::update_analysis() {
+  const bool volume = whole_stack_ && slice_count(*texture_, section_.cut) > 1;
+  const AnalysisKey wanted{section_.cut, std::max(section_.channel, 0), volume ? -1 : slice_};
+  if (wanted == analysed_ || (playing_ && !volume)) return;
+  analysed_ = wanted;
+  analysing_.start([texture = texture_, wanted](const Execution& execution) {
+    return analyse_texture(*texture, wanted.cut, wanted.channel, wanted.index, execution);
+  });
+}
+
+void TextureView::draw(App& app) {
+  update(app);
+  if (!texture_) {
+    begin_panel("empty");
+    const ImVec2 room = ImGui::GetContentRegionAvail();
+    ImGui::SetCursorPosY(room.y * 0.4f);
+    note(loading_.running() ? "Reading …" : "Drop a texture here, an atlas, or a folder of slices.");
+    if (button("Open a texture …")) app.ask_open();
+    end_panel();
+    return;
+  }
+  if (shortcut("space") && slice_count(*texture_, section_.cut) > 1) playing_ = !playing_;
+  if (shortcut("f")) link_.fit();
+
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const bool narrow = room.x < em(kNarrowEm);
+  const float facts = narrow ? std::max(em(20), room.x * 0.42f) : em(25);
+  const float spectrum = narrow ? 0.0f : std::clamp(room.x * 0.27f, em(17), em(36));
+  const float picture = room.x - facts - gap - (narrow ? 0.0f : spectrum + gap);
+  begin_panel("picture", {picture, 0});
+  draw_picture(ImGui::GetContentRegionAvail());
+  end_panel();
+  ImGui::SameLine();
+  if (!narrow) {
+    begin_panel("spectrum", {spectrum, 0});
+    draw_spectrum(ImGui::GetContentRegionAvail());
+    end_panel();
+    ImGui::SameLine();
+  }
+  begin_panel("facts", {0, 0});
+  draw_facts();
+  if (narrow) {
+    heading("Spectrum");
+    draw_spectrum({ImGui::GetContentRegionAvail().x, em(26)});
+  }
+  end_panel();
+}
+
+void TextureView::draw_picture(ImVec2 size) {
+  const float top = ImGui::GetCursorPosY();
   draw_link_controls(link_);
-  view_.draw("Picture", link_, {em(40), em(30)});
-  view_.draw_range("Range", em(4));
+  draw_section_controls();
+  const float controls = ImGui::GetCursorPosY() - top;
+  const float range = em(3.2f);
+  picture_.draw("Picture", link_, {size.x, size.y - controls - range - ImGui::GetStyle().ItemSpacing.y});
+  picture_.draw_range("Range", range);
 }
 
-void TextureView::parameters(Parameters& p) { link_.parameters(p); }
+void TextureView::draw_section_controls() {
+  set_label_width(0);
+  const Image& first = texture_->images[0];
+  if (first.channels > 1) {
+    int shown = section_.channel + 1;
+    if (choice("Channel", channel_words(first.channels), shown)) section_.channel = shown - 1;
+  }
+  const int slices = slice_count(*texture_, section_.cut);
+  if (slices > 1) {
+    int cut = section_.xz ? 1 : 0;
+    if (choice("Cut", kCuts, cut, "XY: one slice. XZ: one row of every slice, time downwards")) section_.xz = cut == 1;
+    ImGui::SameLine();
+    if (button(playing_ ? "Pause" : "Play", true, "Space")) playing_ = !playing_;
+    ImGui::SameLine();
+    if (section_.xz) {
+      slider("Row", row_, 0, slice_size(*texture_, section_.cut).height - 1);
+    } else {
+      slider("Slice", slice_, 0, slices - 1);
+    }
+  }
+  set_label_width(8);
+}
+
+void TextureView::draw_spectrum(ImVec2 size) {
+  set_label_width(0);
+  if (slice_count(*texture_, section_.cut) > 1) {
+    int which = whole_stack_ ? 0 : 1;
+    constexpr std::array<const char*, 2> kWords{"All slices", "This one"};
+    if (choice("Spectrum of", kWords, which)) whole_stack_ = which == 0;
+  }
+  set_label_width(8);
+  const float side = std::min(size.x, size.y * 0.55f);
+  spectrum_.draw("Spectrum", spectrum_link_, {size.x, side});
+  if (analysing_.running()) note("Transforming …");
+}
 
 }  // namespace bn::ui

@@ -1,10 +1,15 @@
-// The Texture view: a baked file, or a stack of slices; what it says of itself, and whether that is true.
+// The Texture view: a baked file, an atlas or a stack of slices; what it says of itself, and whether that is true.
 
 #pragma once
 
 #include <filesystem>
+#include <memory>
+#include <vector>
 
+#include "bn/bake.h"
 #include "ui/image_view.h"
+#include "ui/task.h"
+#include "ui/texture_file.h"
 
 namespace bn::ui {
 
@@ -13,15 +18,57 @@ class Parameters;
 
 class TextureView {
  public:
-  void open(App& app, const std::filesystem::path& path);
+  /// Reads it in the background.
+  void open(const std::filesystem::path& path);
   void draw(App& app);
   void parameters(Parameters& p);
-  bool busy() const { return false; }
+  bool busy() const { return playing_ || loading_.running() || analysing_.running() || verifying_.running(); }
 
  private:
+  /// Takes up results of the tasks; starts what the settings ask for.
+  void update(App& app);
+  void update_analysis();
+  void take(std::shared_ptr<const TextureFile> texture);
+
+  void draw_picture(ImVec2 size);
+  void draw_section_controls();
+  void draw_spectrum(ImVec2 size);
+  // In texture_facts.cpp.
+  void draw_facts();
+  void draw_verdict();
+  void draw_metadata();
+  void draw_tile_record();
+  void draw_figures();
+
+  // What the user has set.
   std::filesystem::path path_;
-  ImageView view_;
-  ViewLink link_;
+  Section section_;            ///< index: the slice, or the row of an XZ cut
+  int slice_ = 0, row_ = 0;
+  bool whole_stack_ = true;    ///< the spectrum of all slices, else of the one that is shown
+  int thresholds_ = 0;         ///< index into kThresholds
+  int frames_per_second_ = 12;
+
+  std::shared_ptr<const TextureFile> texture_;
+  std::filesystem::path opened_;  ///< the path that was last tried
+  Section shown_;
+  bool stale_ = true;
+  bool playing_ = false;
+  double since_slice_s_ = 0.0;
+
+  struct AnalysisKey {
+    AtlasCut cut;
+    int channel = -1, index = -2;
+    friend bool operator==(const AnalysisKey&, const AnalysisKey&) = default;
+  };
+  AnalysisKey analysed_;
+  std::optional<TextureAnalysis> analysis_;
+  std::optional<std::vector<VerifyItem>> verdict_;
+
+  ImageView picture_, spectrum_;
+  ViewLink link_, spectrum_link_;
+  Task<std::shared_ptr<const TextureFile>> loading_;
+  Task<TextureAnalysis> analysing_;
+  Task<std::vector<VerifyItem>> verifying_;
 };
 
 }  // namespace bn::ui

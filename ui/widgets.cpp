@@ -19,13 +19,11 @@ void begin_row(const char* label) {
   ImGui::PushID(label);
   ImGui::BeginGroup();
   if (end_of(label) != label) {
-    const float start = ImGui::GetCursorPosX();
     ImGui::AlignTextToFramePadding();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
     ImGui::TextUnformatted(label, end_of(label));
     ImGui::PopStyleColor();
-    ImGui::SameLine(label_width_em > 0 ? start - ImGui::GetStyle().WindowPadding.x * 0 + em(label_width_em)
-                                       : 0.0f);
+    ImGui::SameLine(label_width_em > 0 ? em(label_width_em) : 0.0f);  // from the group's left
   }
   ImGui::SetNextItemWidth(-FLT_MIN);
 }

@@ -1,0 +1,181 @@
+#include "ui/texture_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+namespace bn::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kMaxSlices = 4096;
+
+Error failure(ErrorCode code, const fs::path& where, std::string what, std::string limit, std::string remedy) {
+  return Error({.code = code,
+                .what = std::move(what),
+                .where = where.string(),
+                .limit = std::move(limit),
+                .remedy = std::move(remedy)});
+}
+
+std::vector<fs::path> images_in(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (has_image_name(entry->path()) && entry->is_regular_file()) files.push_back(entry->path());
+  }
+  if (error) throw failure(ErrorCode::io, folder, error.message(), "", "check the folder and its permissions");
+  // Contact sheets stand beside what they show.
+  std::erase_if(files, [](const fs::path& path) { return path.stem() == "contact_sheet"; });
+  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return files;
+}
+
+std::string shape_text(const Image& image) {
+  return fmt::format("{} x {}, {} channels, {}", image.size.width, image.size.height, image.channels,
+                     name_of(image.type));
+}
+
+bool same_shape(const Image& a, const Image& b) {
+  return a.size == b.size && a.channels == b.channels && a.type == b.type;
+}
+
+}  // namespace
+
+bool has_image_name(const fs::path& path) {
+  static constexpr std::array<std::string_view, 13> kExtensions{".png", ".exr", ".tif", ".tiff", ".bin",
+                                                                ".h",   ".hdr", ".pfm", ".pgm",  ".ppm",
+                                                                ".tga", ".jpg", ".jpeg"};
+  std::string extension = path.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
+}
+
+TextureFile read_texture(const fs::path& path, const Execution& execution) {
+  TextureFile texture{.path = path, .files = {path}, .images = {}, .metadata = {}, .metadata_fault = {}};
+  std::error_code error;
+  if (fs::is_directory(path, error)) {
+    texture.files = images_in(path);
+    if (texture.files.empty()) {
+      throw failure(ErrorCode::invalid_input, path, "there is no image in this folder", "",
+                    "open a folder whose images are the slices of one texture");
+    }
+    if (texture.files.size() > kMaxSlices) {
+      throw failure(ErrorCode::over_limit, path, fmt::format("{} slices", texture.files.size()),
+                    fmt::format("{}", kMaxSlices), "");
+    }
+  }
+  std::uint64_t bytes = 0;
+  for (const auto& file : texture.files) {
+    throw_if_stopped(execution);
+    FileContent content = read_image(file, execution);
+    bytes += content.image.samples.size();
+    if (bytes > kMaxTextureBytes) {
+      throw failure(ErrorCode::over_limit, path, "too many samples for one view", "2 GiB", "");
+    }
+    if (texture.images.empty()) {
+      texture.hash_fits = !content.metadata || content.metadata->pixel_hash == pixel_hash(content.image);
+      texture.metadata = std::move(content.metadata);
+      texture.metadata_fault = std::move(content.metadata_fault);
+    } else if (!same_shape(texture.images[0], content.image)) {
+      throw failure(ErrorCode::invalid_input, file, "a slice of " + shape_text(content.image),
+                    shape_text(texture.images[0]) + ", as the first", "open the file by itself");
+    }
+    texture.images.push_back(std::move(content.image));
+    if (execution.progress) {
+      execution.progress(static_cast<double>(texture.images.size()) / static_cast<double>(texture.files.size()));
+    }
+  }
+  return texture;
+}
+
+AtlasCut guess_cut(const TextureFile& texture) {
+  if (texture.images.size() != 1) return {};
+  const auto [width, height] = texture.images[0].size;
+  if (texture.metadata) {
+    if (texture.metadata->kind != "retarget-atlas") return {};
+    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texture.metadata->tiles.size()))));
+    const AtlasCut cut{std::max(side, 1), std::max(side, 1)};
+    return fits(texture, cut) ? cut : AtlasCut{};
+  }
+  if (height > width && height % width == 0) return {1, height / width};
+  if (width > height && width % height == 0) return {width / height, 1};
+  return {};
+}
+
+bool fits(const TextureFile& texture, const AtlasCut& cut) {
+  const Extent size = texture.images[0].size;
+  const bool whole = cut.columns >= 1 && cut.rows >= 1 && size.width % cut.columns == 0 && size.height % cut.rows == 0;
+  return whole && (texture.images.size() == 1 || cut.count() == 1);
+}
+
+int slice_count(const TextureFile& texture, const AtlasCut& cut) {
+  return texture.images.size() > 1 ? static_cast<int>(texture.images.size()) : cut.count();
+}
+
+Extent slice_size(const TextureFile& texture, const AtlasCut& cut) {
+  return {texture.images[0].size.width / cut.columns, texture.images[0].size.height / cut.rows};
+}
+
+Image slice(const TextureFile& texture, const AtlasCut& cut, int index) {
+  if (cut.count() > 1) return atlas_tile(texture.images[0], slice_size(texture, cut), index);
+  return texture.images[static_cast<std::size_t>(index)];
+}
+
+Picture picture_of(const TextureFile& texture, const Section& section) {
+  const Extent size = slice_size(texture, section.cut);
+  const int depth = slice_count(texture, section.cut);
+  const int all = std::min(texture.images[0].channels, 4);
+  const int first = section.channel < 0 ? 0 : std::min(section.channel, all - 1);
+  const int count = section.channel < 0 ? all : 1;
+  Picture picture{.size = section.xz ? Extent{size.width, depth} : size, .channels = count, .values = {}};
+  picture.values.resize(static_cast<std::size_t>(picture.size.area()) * static_cast<std::size_t>(count));
+  for (int z = 0; z < (section.xz ? depth : 1); ++z) {
+    const Image image = slice(texture, section.cut, section.xz ? z : section.index);
+    for (int c = 0; c < count; ++c) {
+      const ChannelSamples samples = samples_of_channel(image, first + c);
+      // The greatest sample of integers is one below the range's end.
+      const float high = static_cast<float>(image.type == SampleType::f32 ? samples.high : samples.high - 1.0);
+      const bool begins = z == 0 && c == 0;
+      picture.low = begins ? static_cast<float>(samples.low) : std::min(picture.low, static_cast<float>(samples.low));
+      picture.high = begins ? high : std::max(picture.high, high);
+      const std::size_t row = static_cast<std::size_t>(size.width);
+      const std::size_t from = section.xz ? static_cast<std::size_t>(section.index) * row : 0;
+      const std::size_t to = section.xz ? static_cast<std::size_t>(z) * row : 0;
+      const std::size_t pixels = section.xz ? row : static_cast<std::size_t>(size.area());
+      for (std::size_t i = 0; i < pixels; ++i) {
+        picture.values[(to + i) * static_cast<std::size_t>(count) + static_cast<std::size_t>(c)] =
+            static_cast<float>(samples.value[from + i]);
+      }
+    }
+  }
+  return picture;
+}
+
+TextureAnalysis analyse_texture(const TextureFile& texture, const AtlasCut& cut, int channel, int index,
+                                const Execution& execution) {
+  const int depth = index < 0 ? slice_count(texture, cut) : 1;
+  const Extent size = slice_size(texture, cut);
+  ChannelSamples stack;
+  for (int z = 0; z < depth; ++z) {
+    throw_if_stopped(execution);
+    append_samples(stack, samples_of_channel(slice(texture, cut, index < 0 ? z : index), std::max(channel, 0)));
+  }
+  const Shape shape{size.width, size.height, depth};
+  const Analysis analysis = analyse(stack.value, shape, stack.low, stack.high, execution);
+  TextureAnalysis result{.plane = analysis.power, .in_time = {}, .figures = analysis.figures};
+  if (depth > 1) {
+    result.plane = project(analysis.power, Projection::xy);
+    result.in_time = project(analysis.power, Projection::xz);
+  }
+  return result;
+}
+
+}  // namespace bn::ui
