@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "ui/keys.h"
@@ -15,6 +17,20 @@ namespace {
 constexpr std::pair<Tab, const char*> kTabs[] = {
     {Tab::run, "Run"}, {Tab::compare, "Compare"}, {Tab::texture, "Texture"}, {Tab::bake, "Bake"}};
 constexpr std::size_t kMaxErrors = 50;
+constexpr double kMinScale = 0.5, kMaxScale = 4.0;
+
+constexpr std::pair<const char*, const char*> kHelp[] = {
+    {"Ctrl+1 … Ctrl+4", "Run, Compare, Texture, Bake"},
+    {"Ctrl+O", "open a texture, a folder of slices, a recipe"},
+    {"Ctrl+Z, Ctrl+Y", "undo and redo a change of settings"},
+    {"Ctrl+D", "dark or light"},
+    {"Ctrl++, Ctrl+-, Ctrl+0", "larger, smaller, normal size"},
+    {"F12", "save a picture of the window"},
+    {"Ctrl+Q", "quit"},
+    {"Wheel, drag, double click", "on a picture: zoom, pan, fit"},
+    {"F", "fit the picture"},
+    {"Space", "start or pause; play slices"},
+    {"Ctrl+click", "on a slider: type its value"}};
 
 }  // namespace
 
@@ -24,7 +40,7 @@ App::App(std::filesystem::path session) : session_(std::move(session)) {
 
 void App::parameters(Parameters& p) {
   p("dark", dark);
-  p("scale", scale, 0.5, 4.0);
+  p("scale", scale, kMinScale, kMaxScale);
   int tab = static_cast<int>(wanted_tab_.value_or(tab_));
   p("tab", tab, 0, static_cast<int>(std::size(kTabs)) - 1);
   if (p.loading()) show(static_cast<Tab>(tab));
@@ -55,23 +71,33 @@ void App::redo() {
 }
 
 void App::close() {
-  if (session_.empty()) return;
-  try {
-    write_session(session_, settings());
-  } catch (const Error& error) {
-    report(error);
-  }
+  if (!session_.empty()) write_session(session_, settings());
 }
 
 bool App::busy() const { return run.busy() || compare.busy() || texture.busy() || bake.busy(); }
 
 void App::open(const std::filesystem::path& path) {
-  if (path.extension() == ".toml") {
+  // From here on folders may change, so the path is made whole.
+  std::error_code error;
+  std::filesystem::path whole = std::filesystem::absolute(path, error);
+  if (error) whole = path;
+  if (whole.extension() == ".toml") {
     show(Tab::bake);
-    return;
+    bake.open(whole);
+  } else {
+    show(Tab::texture);
+    texture.open(whole);
   }
-  show(Tab::texture);
-  texture.open(*this, path);
+}
+
+void App::ask(std::string title, FileChooser::Want want, const std::filesystem::path& start,
+              std::function<void(const std::filesystem::path&)> done) {
+  chooser_.ask(std::move(title), want, start, std::move(done));
+}
+
+void App::ask_open() {
+  ask("Open a texture, a folder of slices or a recipe", FileChooser::Want::open, {},
+      [this](const std::filesystem::path& path) { open(path); });
 }
 
 void App::report(const Error& error) {
@@ -81,18 +107,21 @@ void App::report(const Error& error) {
 }
 
 void App::report_in_flight() {
+  const auto other = [&](ErrorCode code, std::string what, std::string remedy) {
+    report(Error(
+        {.code = code, .what = std::move(what), .where = "", .limit = "", .remedy = std::move(remedy)}));
+  };
   try {
     throw;
   } catch (const Error& error) {
     report(error);
   } catch (const std::bad_alloc&) {
-    report(Error({.code = ErrorCode::over_limit,
-                  .what = "out of memory",
-                  .where = "",
-                  .limit = "",
-                  .remedy = "ask for less"}));
+    other(ErrorCode::over_limit, "out of memory", "ask for less, or close other programs");
+  } catch (const std::filesystem::filesystem_error& error) {
+    other(ErrorCode::io, error.path1().string() + ": " + error.code().message(),
+          "check the path and its permissions");
   } catch (const std::exception& defect) {
-    report(Error({.code = ErrorCode::io, .what = defect.what(), .where = "", .limit = "", .remedy = ""}));
+    other(ErrorCode::io, std::string("a defect in bn-inspector: ") + defect.what(), "please report it");
   }
 }
 
@@ -107,26 +136,40 @@ void App::frame() {
   draw_menu();
   draw_tabs();
   draw_status();
+  chooser_.draw();
+  draw_help();
   ImGui::End();
   if (!ImGui::IsAnyItemActive()) history_.note(settings());
 }
 
 void App::handle_shortcuts() {
-  for (int i = 0; i < 4; ++i) {
+  if (ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) return;
+  for (int i = 0; i < static_cast<int>(std::size(kTabs)); ++i) {
     if (shortcut(fmt::format("ctrl+{}", i + 1))) show(kTabs[i].first);
   }
+  if (shortcut("ctrl+o")) ask_open();
   if (shortcut("ctrl+z")) undo();
   if (shortcut("ctrl+y") || shortcut("ctrl+shift+z")) redo();
-  if (shortcut("ctrl+q")) quit = true;
   if (shortcut("ctrl+d")) dark = !dark;
-  if (shortcut("ctrl+plus")) scale = std::min(4.0, scale * 1.25);
-  if (shortcut("ctrl+minus")) scale = std::max(0.5, scale / 1.25);
+  if (shortcut("ctrl+plus") || shortcut("ctrl+shift+plus")) scale = std::min(kMaxScale, scale * 1.25);
+  if (shortcut("ctrl+minus")) scale = std::max(kMinScale, scale / 1.25);
   if (shortcut("ctrl+0")) scale = 1.0;
+  if (shortcut("f12")) ask_screenshot();
+  if (shortcut("f1")) help_wanted_ = true;
+  if (shortcut("ctrl+q")) quit = true;
+}
+
+void App::ask_screenshot() {
+  ask("Save a picture of the window", FileChooser::Want::save, "bn-inspector.png",
+      [this](const std::filesystem::path& path) { screenshot_path = path; });
 }
 
 void App::draw_menu() {
   if (!ImGui::BeginMenuBar()) return;
   if (begin_menu("File")) {
+    if (menu_item("Open …", "Ctrl+O")) ask_open();
+    if (menu_item("Save a picture of the window …", "F12")) ask_screenshot();
+    ImGui::Separator();
     if (menu_item("Quit", "Ctrl+Q")) quit = true;
     ImGui::EndMenu();
   }
@@ -137,22 +180,34 @@ void App::draw_menu() {
   }
   if (begin_menu("View")) {
     if (menu_item("Dark", "Ctrl+D", dark)) dark = !dark;
-    if (menu_item("Larger", "Ctrl++")) scale = std::min(4.0, scale * 1.25);
-    if (menu_item("Smaller", "Ctrl+-")) scale = std::max(0.5, scale / 1.25);
+    ImGui::Separator();
+    if (menu_item("Larger", "Ctrl++")) scale = std::min(kMaxScale, scale * 1.25);
+    if (menu_item("Smaller", "Ctrl+-")) scale = std::max(kMinScale, scale / 1.25);
     if (menu_item("Normal size", "Ctrl+0")) scale = 1.0;
+    ImGui::EndMenu();
+  }
+  if (begin_menu("Help")) {
+    if (menu_item("Keys", "F1")) help_wanted_ = true;
     ImGui::EndMenu();
   }
   ImGui::EndMenuBar();
 }
 
+float App::foot_height() const {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float status = ImGui::GetTextLineHeight() + style.ItemSpacing.y;
+  return errors_.empty() ? status : status + em(5.5f) + style.ItemSpacing.y;
+}
+
 void App::draw_tabs() {
-  const float foot = ImGui::GetFrameHeightWithSpacing() * (errors_.empty() ? 1.0f : 3.0f);
   if (!ImGui::BeginTabBar("tabs")) return;
   for (const auto& [tab, name] : kTabs) {
     if (!begin_tab(name, wanted_tab_ == tab)) continue;
     tab_ = tab;
     if (wanted_tab_ == tab) wanted_tab_.reset();
-    ImGui::BeginChild(name, {0, -foot});
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0, 0, 0, 0));
+    ImGui::BeginChild(name, {0, -foot_height()});
+    ImGui::PopStyleColor();
     switch (tab) {
       case Tab::run:
         run.draw(*this);
@@ -173,16 +228,42 @@ void App::draw_tabs() {
   ImGui::EndTabBar();
 }
 
-void App::draw_status() {
+void App::draw_errors(float height) {
+  begin_panel("errors", {0, height});
+  if (button("Dismiss")) errors_.clear();
   if (!errors_.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
-    ImGui::TextWrapped("%s", errors_.back().c_str());
-    ImGui::PopStyleColor();
-    items::record("Error", errors_.back());
     ImGui::SameLine();
-    if (button("Dismiss")) errors_.clear();
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().bad);
+    ImGui::TextUnformatted(
+        errors_.size() == 1 ? "An error" : fmt::format("{} errors, the last first", errors_.size()).c_str());
+    ImGui::PopStyleColor();
   }
+  for (auto error = errors_.rbegin(); error != errors_.rend(); ++error) {
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(error->c_str());
+    ImGui::PopTextWrapPos();
+    if (error == errors_.rbegin()) items::record("Error", *error);
+  }
+  end_panel();
+}
+
+void App::draw_status() {
+  if (!errors_.empty()) draw_errors(em(5.5f));
   note(status_);
+  items::record("Status", status_);
+}
+
+void App::draw_help() {
+  if (std::exchange(help_wanted_, false)) ImGui::OpenPopup("help");
+  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+  if (!ImGui::BeginPopup("help")) return;
+  heading("Keys");
+  set_label_width(15);
+  for (const auto& [keys, what] : kHelp) value(keys, what);
+  set_label_width(8);
+  note(fmt::format("bn inspector {}", kVersion));
+  ImGui::EndPopup();
 }
 
 }  // namespace bn::ui

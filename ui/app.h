@@ -8,6 +8,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "bn/core.h"
 #include "ui/bake_view.h"
 #include "ui/compare_view.h"
+#include "ui/file_chooser.h"
 #include "ui/parameters.h"
 #include "ui/run_view.h"
 #include "ui/texture_view.h"
@@ -32,13 +34,18 @@ class App {
   void frame();
   /// Something moves by itself: draw again without waiting for input.
   bool busy() const;
-  /// Writes the session file. Errors are told on the screen, if that is still there.
+  /// Writes the session file. Errors: io.
   void close();
 
   // For views.
   /// A texture goes to the Texture view, a recipe (.toml) to the Bake view; `folder` of slices too.
   void open(const std::filesystem::path& path);
   void show(Tab tab) { wanted_tab_ = tab; }
+  /// Lets the user choose a file or folder, and opens it.
+  void ask_open();
+  /// Lets the user choose; `done` gets the path, unless they think better of it.
+  void ask(std::string title, FileChooser::Want want, const std::filesystem::path& start,
+           std::function<void(const std::filesystem::path&)> done);
   /// Puts an error into the panel at the bottom. Call it from the window's thread.
   void report(const Error& error);
   /// The same for the exception in flight, whatever it is; inside a catch block. Cancelled ones are not told.
@@ -65,7 +72,11 @@ class App {
   void restore(Settings settings);
   void draw_menu();
   void draw_tabs();
+  void draw_errors(float height);
   void draw_status();
+  void draw_help();
+  void ask_screenshot();
+  float foot_height() const;
   void handle_shortcuts();
   void undo();
   void redo();
@@ -74,8 +85,10 @@ class App {
   UndoHistory history_;
   Tab tab_ = Tab::run;
   std::optional<Tab> wanted_tab_ = Tab::run;  ///< until the tab bar shows it
+  FileChooser chooser_;
+  bool help_wanted_ = false;
   std::deque<std::string> errors_;
-  std::string status_;
+  std::string status_ = "Drop a texture, a folder of slices or a recipe anywhere.";
 };
 
 }  // namespace bn::ui

@@ -1,13 +1,235 @@
 #include "ui/bake_view.h"
 
+#include <fmt/format.h>
+
+#include <mutex>
+#include <utility>
+#include <vector>
+
 #include "ui/app.h"
-#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
+namespace {
 
-void BakeView::draw(App&) { note("Recipes come here."); }
+std::string seconds_text(double seconds) {
+  return seconds < 120.0 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
+}
 
-void BakeView::parameters(Parameters&) {}
+std::string energy_text(const std::vector<TileRecord>& tiles) {
+  if (tiles.empty()) return "";
+  std::int64_t least = tiles[0].energy, most = least;
+  bool proven = true;
+  for (const TileRecord& tile : tiles) {
+    least = std::min(least, tile.energy);
+    most = std::max(most, tile.energy);
+    proven &= tile.energy == tile.lower_bound;
+  }
+  return (least == most ? fmt::format("{}", least) : fmt::format("{} … {}", least, most)) +
+         (proven ? ", proven" : "");
+}
+
+}  // namespace
+
+/// Written by the bake's threads, read by the window.
+struct BakeView::Watch {
+  std::mutex mutex;
+  int running = -1;                               ///< the job in hand
+  std::vector<std::optional<JobRecord>> records;  ///< by job
+  double done = 0.0;
+  std::optional<double> seconds_left;
+
+  void operator()(const JobStarted& event) { running = event.index; }
+  void operator()(const BakeProgress& event) {
+    done = event.done;
+    seconds_left = event.seconds_left;
+  }
+  void operator()(const FileWritten&) {}
+  void operator()(const JobFinished& event) {
+    records[static_cast<std::size_t>(event.index)] = event.job;
+    running = -1;
+  }
+};
+
+void BakeView::open(const std::filesystem::path& recipe) {
+  recipe_path_ = recipe;
+  planned_path_.clear();
+}
+
+void BakeView::parameters(Parameters& p) {
+  p("bake.recipe", recipe_path_);
+  p("bake.out", out_dir_);
+  p("bake.force", force_);
+  p("bake.threads", threads_, 0, 1024);
+}
+
+BakeOptions BakeView::options() const { return {.out_dir = out_dir_, .force = force_}; }
+
+void BakeView::plan() {
+  planned_path_ = recipe_path_;
+  planned_out_ = out_dir_;
+  watch_.reset();
+  planning_.start([path = recipe_path_, options = options()](const Execution& execution) {
+    Recipe recipe = read_recipe(path);
+    BakePlan plan = plan_bake(recipe, options, execution);
+    return Planned{std::move(recipe), std::move(plan)};
+  });
+}
+
+void BakeView::bake() {
+  watch_ = std::make_shared<Watch>();
+  watch_->records.resize(planned_->plan.jobs.size());
+  baking_.start(
+      [watch = watch_, recipe = planned_->recipe, options = options()](const Execution& execution) {
+        return bn::bake(recipe, options, execution, [&](const BakeEvent& event) {
+          const std::lock_guard lock(watch->mutex);
+          std::visit(*watch, event);
+        });
+      },
+      threads_);
+}
+
+void BakeView::update(App& app) {
+  const bool wanted = planned_path_ != recipe_path_ || planned_out_ != out_dir_;
+  if (wanted && !recipe_path_.empty() && !baking_.running() && !ImGui::IsAnyItemActive()) plan();
+  try {
+    if (auto planned = planning_.poll()) planned_ = std::move(*planned);
+  } catch (...) {
+    planned_.reset();
+    app.report_in_flight();
+  }
+  try {
+    if (auto result = baking_.poll()) {
+      app.say(fmt::format("Baked into {} in {:.2f} s", out_dir_, result->seconds));
+    }
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) {
+      app.say("Stopped; Bake goes on where it stopped.");
+    } else {
+      app.report(error);
+    }
+  } catch (...) {
+    app.report_in_flight();
+  }
+}
+
+void BakeView::draw(App& app) {
+  update(app);
+  begin_panel("bake");
+  if (recipe_path_.empty()) {
+    ImGui::SetCursorPosY(ImGui::GetContentRegionAvail().y * 0.4f);
+    note("Drop a recipe (.toml) here.");
+    if (button("Open a recipe …")) app.ask_open();
+    end_panel();
+    return;
+  }
+  draw_controls(app);
+  if (planning_.running() && !planned_) note("Planning …");
+  if (planned_) {
+    const bool wide = ImGui::GetContentRegionAvail().x > em(72);
+    const float jobs = wide ? ImGui::GetContentRegionAvail().x * 0.66f : 0.0f;
+    ImGui::BeginChild("jobs", {jobs, wide ? 0.0f : ImGui::GetContentRegionAvail().y * 0.6f});
+    draw_jobs(app);
+    ImGui::EndChild();
+    if (wide) ImGui::SameLine();
+    ImGui::BeginChild("recipe", {0, 0});
+    draw_recipe();
+    ImGui::EndChild();
+  }
+  end_panel();
+}
+
+void BakeView::draw_controls(App& app) {
+  heading("Recipe");
+  value("File", recipe_path_.string());
+  const bool baking = baking_.running();
+  ImGui::BeginDisabled(baking);
+  field("Into folder", out_dir_, "Made if it is missing. What stands there already is kept.");
+  slider("Threads", threads_, 0, 64, "0: all cores. Changes no byte.");
+  checkbox("Make everything again", force_);
+  ImGui::EndDisabled();
+  if (main_button("Bake", planned_.has_value() && !baking && !planning_.running())) bake();
+  ImGui::SameLine();
+  if (button("Stop", baking, "What is finished stays; Bake goes on from there")) baking_.request_stop();
+  ImGui::SameLine();
+  if (button("Read again", !baking, "After the recipe or the folder has changed")) plan();
+  ImGui::SameLine();
+  if (button("Open another …", !baking)) app.ask_open();
+  if (watch_) {
+    const std::lock_guard lock(watch_->mutex);
+    const std::string left =
+        watch_->seconds_left && baking ? ", " + seconds_text(*watch_->seconds_left) + " left" : "";
+    progress_bar("Progress", watch_->done, fmt::format("{:.0f} %{}", 100.0 * watch_->done, left));
+  }
+}
+
+void BakeView::draw_jobs(App& app) {
+  heading("Jobs");
+  const BakePlan& plan = planned_->plan;
+  value("Plan", fmt::format("{} jobs, about {} on one core, {:.0f} MiB", plan.jobs.size(),
+                            seconds_text(plan.estimated_seconds),
+                            static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
+  if (!ImGui::BeginTable("jobs", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("State", 0, 0.9f);
+  ImGui::TableSetupColumn("Job", 0, 1.9f);
+  ImGui::TableSetupColumn("Time", 0, 0.9f);
+  ImGui::TableSetupColumn("Energy", 0, 1.6f);
+  ImGui::TableSetupColumn("Files", 0, 2.7f);
+  ImGui::TableHeadersRow();
+  for (int i = 0; i < static_cast<int>(plan.jobs.size()); ++i) draw_job(app, i);
+  ImGui::EndTable();
+}
+
+void BakeView::draw_job(App& app, int index) {
+  const PlannedJob& job = planned_->plan.jobs[static_cast<std::size_t>(index)];
+  std::optional<JobRecord> record;
+  bool running = false;
+  if (watch_) {
+    const std::lock_guard lock(watch_->mutex);
+    record = watch_->records[static_cast<std::size_t>(index)];
+    running = watch_->running == index && baking_.running();
+  }
+  const bool stands = record ? record->skipped : job.stands;
+  const char* state = running                      ? "running"
+                      : record && !record->skipped ? "made"
+                      : stands                     ? "stands"
+                                                   : "to make";
+  const ImU32 colour = running ? palette().accent : record || stands ? palette().good : palette().dim_text;
+  ImGui::PushID(index);
+  ImGui::TableNextColumn();
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::TextUnformatted(state);
+  ImGui::PopStyleColor();
+  items::record(fmt::format("{} {}", name_of(job.kind), job.name), state);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(job.name.c_str());
+  note(name_of(job.kind));
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(record && !record->skipped ? seconds_text(record->seconds).c_str()
+                                                    : ("~ " + seconds_text(job.estimated_seconds)).c_str());
+  ImGui::TableNextColumn();
+  if (record) ImGui::TextWrapped("%s", energy_text(record->tiles).c_str());
+  ImGui::TableNextColumn();
+  for (const std::string& file : job.files) {
+    // What is there can be opened.
+    if (record || stands) {
+      if (selectable(file.c_str(), false)) app.open(std::filesystem::path(planned_out_) / file);
+      tooltip("Open in the Texture view");
+    } else {
+      note(file);
+    }
+  }
+  if (record) {
+    for (const std::string& text : record->notes) note(text);
+  }
+  ImGui::PopID();
+}
+
+void BakeView::draw_recipe() {
+  heading("Text");
+  ImGui::PushFont(mono_font());
+  note(planned_->recipe.text);
+  ImGui::PopFont();
+}
 
 }  // namespace bn::ui

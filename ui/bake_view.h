@@ -2,6 +2,14 @@
 
 #pragma once
 
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bn/bake.h"
+#include "ui/task.h"
+
 namespace bn::ui {
 
 class App;
@@ -9,11 +17,40 @@ class Parameters;
 
 class BakeView {
  public:
+  /// Reads and plans it in the background.
+  void open(const std::filesystem::path& recipe);
   void draw(App& app);
-  /// Every value that the user can change here; see ui/parameters.h.
   void parameters(Parameters& p);
-  /// Whether something is going on, so that the window must be drawn again without input.
-  bool busy() const { return false; }
+  bool busy() const { return planning_.running() || baking_.running(); }
+
+ private:
+  struct Planned {
+    Recipe recipe;
+    BakePlan plan;
+  };
+  struct Watch;  ///< what the bake's events say, for both threads
+
+  void update(App& app);
+  void plan();
+  void bake();
+  BakeOptions options() const;
+  void draw_controls(App& app);
+  void draw_jobs(App& app);
+  void draw_job(App& app, int index);
+  void draw_recipe();
+
+  // What the user has set.
+  std::filesystem::path recipe_path_;
+  std::string out_dir_ = "out";
+  bool force_ = false;
+  int threads_ = 0;
+
+  std::filesystem::path planned_path_;  ///< the recipe that was last tried ...
+  std::string planned_out_;             ///< ... for this folder
+  std::optional<Planned> planned_;
+  std::shared_ptr<Watch> watch_;
+  Task<Planned> planning_;
+  Task<BakeResult> baking_;
 };
 
 }  // namespace bn::ui

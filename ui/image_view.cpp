@@ -29,8 +29,7 @@ void ViewLink::parameters(Parameters& p) {
 }
 
 void draw_link_controls(ViewLink& link) {
-  if (button("Fit", true, "The whole picture (F, or a double click on it)"))
-    link.fit();
+  if (button("Fit", true, "The whole picture (F, or a double click on it)")) link.fit();
   ImGui::SameLine();
   if (button("1:1", true, "One texel to a pixel of the screen (1)")) link.zoom = 1.0;
   ImGui::SameLine();

@@ -32,7 +32,8 @@ struct Row {
 std::vector<Row> rows_of(const FiguresOfMerit& f) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < f.bands.mean.size(); ++i) {
-    rows.push_back({fmt::format("bands[{}]", i), fmt::format("Power, f ≤ {}", kBandEdges[i]), f.bands.mean[i]});
+    rows.push_back(
+        {fmt::format("bands[{}]", i), fmt::format("Power, f ≤ {}", kBandEdges[i]), f.bands.mean[i]});
   }
   rows.push_back({"peak", "Peak power", f.peak});
   rows.push_back({"peak_frequency", "Peak frequency", f.peak_frequency});
@@ -59,7 +60,8 @@ void TextureView::draw_facts() {
 void TextureView::draw_verdict() {
   if (!texture_->metadata) {
     if (texture_->metadata_fault.empty()) {
-      value("Verified", "no metadata of ours", palette().dim_text, "Nothing is claimed, so nothing can be verified.");
+      value("Verified", "no metadata of ours", palette().dim_text,
+            "Nothing is claimed, so nothing can be verified.");
     } else {
       value("Verified", "metadata damaged: " + texture_->metadata_fault, palette().bad);
     }
@@ -72,7 +74,8 @@ void TextureView::draw_verdict() {
   }
   if (!verdict_) return;
   const auto& items = *verdict_;
-  const auto passed = std::count_if(items.begin(), items.end(), [](const VerifyItem& item) { return item.pass; });
+  const auto passed =
+      std::count_if(items.begin(), items.end(), [](const VerifyItem& item) { return item.pass; });
   const bool all = passed == static_cast<std::ptrdiff_t>(items.size());
   value("Verified", fmt::format("{}, {} of {} checks", all ? "pass" : "FAIL", passed, items.size()),
         all ? palette().good : palette().bad, "As by bn verify.");
@@ -130,9 +133,10 @@ void TextureView::draw_tile_record() {
   if (tiles.empty() || !(one_each || tiles.size() == 1)) return;
   const TileRecord& tile = tiles[tiles.size() == 1 ? 0 : static_cast<std::size_t>(slice_)];
   const auto share = [&](std::int64_t energy) {
-    return tile.start_energy > 0 ? fmt::format("{} ({:.3f} %)", energy,
-                                               100.0 * static_cast<double>(energy) / static_cast<double>(tile.start_energy))
-                                 : fmt::format("{}", energy);
+    return tile.start_energy > 0
+               ? fmt::format("{} ({:.3f} %)", energy,
+                             100.0 * static_cast<double>(energy) / static_cast<double>(tile.start_energy))
+               : fmt::format("{}", energy);
   };
   value("Motion", fmt::format("({}, {})", tile.motion.x, tile.motion.y));
   value("Energy", share(tile.energy), "In levels, and as a share of the start energy");
@@ -145,16 +149,20 @@ void TextureView::draw_tile_record() {
 
 void TextureView::draw_figures() {
   heading("Figures of merit");
-  combo("Thresholds", kThresholds, thresholds_, "As bn spectrum --check; fitting: stbn for stacks, else blue");
+  combo("Thresholds", kThresholds, thresholds_,
+        "As bn spectrum --check; fitting: stbn for stacks, else blue");
   if (!analysis_) return note(analysing_.running() ? "Transforming …" : "");
   const FiguresOfMerit& figures = analysis_->figures;
   const bool moves = texture_->metadata && texture_->metadata->kind.starts_with("retarget");
   std::vector<JudgedFigure> judged;
-  if (thresholds_ == 2 || (thresholds_ == 0 && figures.shape.depth == 1 && !moves)) judged = judge(figures, Check::blue);
+  if (thresholds_ == 2 || (thresholds_ == 0 && figures.shape.depth == 1 && !moves))
+    judged = judge(figures, Check::blue);
   if (thresholds_ == 3) judged = judge(figures, Check::white);
-  if (thresholds_ == 4 || (thresholds_ == 0 && figures.shape.depth > 1 && !moves)) judged = judge(figures, Check::stbn);
+  if (thresholds_ == 4 || (thresholds_ == 0 && figures.shape.depth > 1 && !moves))
+    judged = judge(figures, Check::stbn);
   if (!judged.empty()) {
-    const bool all = std::all_of(judged.begin(), judged.end(), [](const auto& figure) { return figure.passed; });
+    const bool all =
+        std::all_of(judged.begin(), judged.end(), [](const auto& figure) { return figure.passed; });
     value("Check", all ? "pass" : "FAIL", all ? palette().good : palette().bad);
   }
   if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
@@ -162,7 +170,8 @@ void TextureView::draw_figures() {
   ImGui::TableSetupColumn("value", 0, 1.0f);
   ImGui::TableSetupColumn("allowed", 0, 1.3f);
   for (const Row& row : rows_of(figures)) {
-    const auto found = std::find_if(judged.begin(), judged.end(), [&](const auto& j) { return j.figure == row.key; });
+    const auto found =
+        std::find_if(judged.begin(), judged.end(), [&](const auto& j) { return j.figure == row.key; });
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
     ImGui::TextUnformatted(row.name.c_str());

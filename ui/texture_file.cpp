@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxSlices = 4096;
 
-Error failure(ErrorCode code, const fs::path& where, std::string what, std::string limit, std::string remedy) {
+Error failure(ErrorCode code, const fs::path& where, std::string what, std::string limit,
+              std::string remedy) {
   return Error({.code = code,
                 .what = std::move(what),
                 .where = where.string(),
@@ -29,7 +30,8 @@ std::vector<fs::path> images_in(const fs::path& folder) {
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
     if (has_image_name(entry->path()) && entry->is_regular_file()) files.push_back(entry->path());
   }
-  if (error) throw failure(ErrorCode::io, folder, error.message(), "", "check the folder and its permissions");
+  if (error)
+    throw failure(ErrorCode::io, folder, error.message(), "", "check the folder and its permissions");
   // Contact sheets stand beside what they show.
   std::erase_if(files, [](const fs::path& path) { return path.stem() == "contact_sheet"; });
   std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
@@ -50,9 +52,8 @@ bool same_shape(const Image& a, const Image& b) {
 }  // namespace
 
 bool has_image_name(const fs::path& path) {
-  static constexpr std::array<std::string_view, 13> kExtensions{".png", ".exr", ".tif", ".tiff", ".bin",
-                                                                ".h",   ".hdr", ".pfm", ".pgm",  ".ppm",
-                                                                ".tga", ".jpg", ".jpeg"};
+  static constexpr std::array<std::string_view, 13> kExtensions{
+      ".png", ".exr", ".tif", ".tiff", ".bin", ".h", ".hdr", ".pfm", ".pgm", ".ppm", ".tga", ".jpg", ".jpeg"};
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
@@ -90,7 +91,8 @@ TextureFile read_texture(const fs::path& path, const Execution& execution) {
     }
     texture.images.push_back(std::move(content.image));
     if (execution.progress) {
-      execution.progress(static_cast<double>(texture.images.size()) / static_cast<double>(texture.files.size()));
+      execution.progress(static_cast<double>(texture.images.size()) /
+                         static_cast<double>(texture.files.size()));
     }
   }
   return texture;
@@ -101,7 +103,8 @@ AtlasCut guess_cut(const TextureFile& texture) {
   const auto [width, height] = texture.images[0].size;
   if (texture.metadata) {
     if (texture.metadata->kind != "retarget-atlas") return {};
-    const int side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(texture.metadata->tiles.size()))));
+    const int side =
+        static_cast<int>(std::lround(std::sqrt(static_cast<double>(texture.metadata->tiles.size()))));
     const AtlasCut cut{std::max(side, 1), std::max(side, 1)};
     return fits(texture, cut) ? cut : AtlasCut{};
   }
@@ -112,7 +115,8 @@ AtlasCut guess_cut(const TextureFile& texture) {
 
 bool fits(const TextureFile& texture, const AtlasCut& cut) {
   const Extent size = texture.images[0].size;
-  const bool whole = cut.columns >= 1 && cut.rows >= 1 && size.width % cut.columns == 0 && size.height % cut.rows == 0;
+  const bool whole =
+      cut.columns >= 1 && cut.rows >= 1 && size.width % cut.columns == 0 && size.height % cut.rows == 0;
   return whole && (texture.images.size() == 1 || cut.count() == 1);
 }
 
@@ -142,9 +146,11 @@ Picture picture_of(const TextureFile& texture, const Section& section) {
     for (int c = 0; c < count; ++c) {
       const ChannelSamples samples = samples_of_channel(image, first + c);
       // The greatest sample of integers is one below the range's end.
-      const float high = static_cast<float>(image.type == SampleType::f32 ? samples.high : samples.high - 1.0);
+      const float high =
+          static_cast<float>(image.type == SampleType::f32 ? samples.high : samples.high - 1.0);
       const bool begins = z == 0 && c == 0;
-      picture.low = begins ? static_cast<float>(samples.low) : std::min(picture.low, static_cast<float>(samples.low));
+      picture.low =
+          begins ? static_cast<float>(samples.low) : std::min(picture.low, static_cast<float>(samples.low));
       picture.high = begins ? high : std::max(picture.high, high);
       const std::size_t row = static_cast<std::size_t>(size.width);
       const std::size_t from = section.xz ? static_cast<std::size_t>(section.index) * row : 0;
@@ -166,7 +172,8 @@ TextureAnalysis analyse_texture(const TextureFile& texture, const AtlasCut& cut,
   ChannelSamples stack;
   for (int z = 0; z < depth; ++z) {
     throw_if_stopped(execution);
-    append_samples(stack, samples_of_channel(slice(texture, cut, index < 0 ? z : index), std::max(channel, 0)));
+    append_samples(stack,
+                   samples_of_channel(slice(texture, cut, index < 0 ? z : index), std::max(channel, 0)));
   }
   const Shape shape{size.width, size.height, depth};
   const Analysis analysis = analyse(stack.value, shape, stack.low, stack.high, execution);

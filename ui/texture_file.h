@@ -25,8 +25,8 @@ struct TextureFile {
 /// Bytes of samples that one texture may have.
 inline constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{2} << 30;
 
-/// Reads a file, or the images of a folder, ordered as people order names. Errors: io, invalid_input (none, sizes that
-/// differ), over_limit, cancelled.
+/// Reads a file, or the images of a folder, ordered as people order names. Errors: io, invalid_input (none,
+/// sizes that differ), over_limit, cancelled.
 TextureFile read_texture(const std::filesystem::path& path, const Execution& execution);
 
 /// Whether `path` has a name of an image format that libbn reads.
@@ -61,8 +61,8 @@ Picture picture_of(const TextureFile& texture, const Section& section);
 
 /// What is in one channel of the whole stack, or of one slice: spectrum and figures.
 struct TextureAnalysis {
-  PowerSpectrum plane;     ///< of the slices, (kx, ky)
-  PowerSpectrum in_time;   ///< (kx, kz); empty where there is one slice
+  PowerSpectrum plane;    ///< of the slices, (kx, ky)
+  PowerSpectrum in_time;  ///< (kx, kz); empty where there is one slice
   FiguresOfMerit figures;
 };
 /// `index` < 0: the stack as a volume. Errors: as analyse().

@@ -205,7 +205,8 @@ void TextureView::draw_section_controls() {
   const int slices = slice_count(*texture_, section_.cut);
   if (slices > 1) {
     int cut = section_.xz ? 1 : 0;
-    if (choice("Cut", kCuts, cut, "XY: one slice. XZ: one row of every slice, time downwards")) section_.xz = cut == 1;
+    if (choice("Cut", kCuts, cut, "XY: one slice. XZ: one row of every slice, time downwards"))
+      section_.xz = cut == 1;
     ImGui::SameLine();
     if (button(playing_ ? "Pause" : "Play", true, "Space")) playing_ = !playing_;
     ImGui::SameLine();

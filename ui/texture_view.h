@@ -1,4 +1,5 @@
-// The Texture view: a baked file, an atlas or a stack of slices; what it says of itself, and whether that is true.
+// The Texture view: a baked file, an atlas or a stack of slices; what it says of itself, and whether that is
+// true.
 
 #pragma once
 
@@ -42,10 +43,10 @@ class TextureView {
 
   // What the user has set.
   std::filesystem::path path_;
-  Section section_;            ///< index: the slice, or the row of an XZ cut
+  Section section_;  ///< index: the slice, or the row of an XZ cut
   int slice_ = 0, row_ = 0;
-  bool whole_stack_ = true;    ///< the spectrum of all slices, else of the one that is shown
-  int thresholds_ = 0;         ///< index into kThresholds
+  bool whole_stack_ = true;  ///< the spectrum of all slices, else of the one that is shown
+  int thresholds_ = 0;       ///< index into kThresholds
   int frames_per_second_ = 12;
 
   std::shared_ptr<const TextureFile> texture_;
