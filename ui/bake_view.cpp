@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -115,7 +116,8 @@ void BakeView::update(App& app) {
 
 void BakeView::draw(App& app) {
   update(app);
-  begin_panel("bake");
+  const float controls = std::min(em(24), ImGui::GetContentRegionAvail().x * 0.42f);
+  begin_panel("bake", {recipe_path_.empty() ? 0.0f : controls, 0});
   if (recipe_path_.empty()) {
     ImGui::SetCursorPosY(ImGui::GetContentRegionAvail().y * 0.4f);
     note("Drop a recipe (.toml) here.");
@@ -124,34 +126,37 @@ void BakeView::draw(App& app) {
     return;
   }
   draw_controls(app);
-  if (planning_.running() && !planned_) note("Planning …");
-  if (planned_) {
-    const bool wide = ImGui::GetContentRegionAvail().x > em(72);
-    const float jobs = wide ? ImGui::GetContentRegionAvail().x * 0.66f : 0.0f;
-    ImGui::BeginChild("jobs", {jobs, wide ? 0.0f : ImGui::GetContentRegionAvail().y * 0.6f});
-    draw_jobs(app);
-    ImGui::EndChild();
-    if (wide) ImGui::SameLine();
-    ImGui::BeginChild("recipe", {0, 0});
-    draw_recipe();
-    ImGui::EndChild();
-  }
   end_panel();
+  ImGui::SameLine();
+  ImGui::PushStyleColor(ImGuiCol_ChildBg, ImVec4(0, 0, 0, 0));
+  ImGui::BeginChild("right", {0, 0});
+  ImGui::PopStyleColor();
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const bool wide = room.x > em(48);
+  begin_panel("jobs", wide ? ImVec2(room.x * 0.62f, 0) : ImVec2(0, room.y * 0.6f));
+  if (planned_) draw_jobs(app);
+  if (!planned_) note(planning_.running() ? "Planning …" : "There is no plan.");
+  end_panel();
+  if (wide) ImGui::SameLine();
+  begin_panel("recipe");
+  if (planned_) draw_recipe();
+  end_panel();
+  ImGui::EndChild();
 }
 
 void BakeView::draw_controls(App& app) {
   heading("Recipe");
-  value("File", recipe_path_.string());
+  value("File", recipe_path_.filename().string(), recipe_path_.string());
   const bool baking = baking_.running();
   ImGui::BeginDisabled(baking);
   field("Into folder", out_dir_, "Made if it is missing. What stands there already is kept.");
   slider("Threads", threads_, 0, 64, "0: all cores. Changes no byte.");
   checkbox("Make everything again", force_);
   ImGui::EndDisabled();
+  ImGui::Spacing();
   if (main_button("Bake", planned_.has_value() && !baking && !planning_.running())) bake();
   ImGui::SameLine();
   if (button("Stop", baking, "What is finished stays; Bake goes on from there")) baking_.request_stop();
-  ImGui::SameLine();
   if (button("Read again", !baking, "After the recipe or the folder has changed")) plan();
   ImGui::SameLine();
   if (button("Open another …", !baking)) app.ask_open();
@@ -161,14 +166,21 @@ void BakeView::draw_controls(App& app) {
         watch_->seconds_left && baking ? ", " + seconds_text(*watch_->seconds_left) + " left" : "";
     progress_bar("Progress", watch_->done, fmt::format("{:.0f} %{}", 100.0 * watch_->done, left));
   }
+  if (!planned_) return;
+  const BakePlan& plan = planned_->plan;
+  const auto stand =
+      std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& job) { return job.stands; });
+  heading("Plan");
+  value("Jobs", stand > 0 ? fmt::format("{}, of which {} stand", plan.jobs.size(), stand)
+                          : fmt::format("{}", plan.jobs.size()));
+  value("Time", "about " + seconds_text(plan.estimated_seconds), "Of what is to be made, on one core");
+  value("Memory",
+        fmt::format("about {:.0f} MiB", static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
 }
 
 void BakeView::draw_jobs(App& app) {
   heading("Jobs");
   const BakePlan& plan = planned_->plan;
-  value("Plan", fmt::format("{} jobs, about {} on one core, {:.0f} MiB", plan.jobs.size(),
-                            seconds_text(plan.estimated_seconds),
-                            static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
   if (!ImGui::BeginTable("jobs", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("State", 0, 0.9f);
   ImGui::TableSetupColumn("Job", 0, 1.9f);

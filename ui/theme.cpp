@@ -80,7 +80,7 @@ void set_colours(ImGuiStyle& style, const Palette& p, bool dark) {
   c[ImGuiCol_TableHeaderBg] = colour(p.frame);
   c[ImGuiCol_TableRowBgAlt] = mix(p.panel, p.frame, 0.35f);
   c[ImGuiCol_TextSelectedBg] = mix(p.panel, p.accent, 0.5f);
-  c[ImGuiCol_PlotHistogram] = colour(p.accent);
+  c[ImGuiCol_PlotHistogram] = mix(p.frame, p.accent, 0.5f);
   c[ImGuiCol_ModalWindowDimBg] = ImVec4(0, 0, 0, 0.45f);
   c[ImGuiCol_NavHighlight] = colour(p.accent);
 }
@@ -98,8 +98,8 @@ void set_distances(ImGuiStyle& style, float scale) {
   style.ChildRounding = style.PopupRounding = 5;
   style.FrameRounding = style.GrabRounding = style.TabRounding = 4;
   style.ScrollbarRounding = 6;
-  style.WindowBorderSize = style.FrameBorderSize = 0;
-  style.ChildBorderSize = style.PopupBorderSize = 1;
+  style.WindowBorderSize = 0;
+  style.ChildBorderSize = style.PopupBorderSize = style.FrameBorderSize = 1;
   style.ScaleAllSizes(scale);
 }
 

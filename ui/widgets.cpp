@@ -207,15 +207,19 @@ void value(const char* label, std::string_view text, std::string_view hint) {
 }
 
 void value(const char* label, std::string_view text, ImU32 colour, std::string_view hint) {
-  begin_row(label);
+  ImGui::BeginGroup();
+  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+  ImGui::TextUnformatted(label, end_of(label));
+  ImGui::PopStyleColor();
+  ImGui::SameLine(label_width_em > 0 ? em(label_width_em) : 0.0f);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(0.0f);
-  ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
   items::record(label, text);
-  end_row(hint);
+  ImGui::EndGroup();
+  tooltip(hint);
 }
 
 void heading(const char* text) {
