@@ -257,6 +257,7 @@ void App::draw_status() {
 void App::draw_help() {
   if (std::exchange(help_wanted_, false)) ImGui::OpenPopup("help");
   ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSize({std::min(em(40), ImGui::GetMainViewport()->Size.x * 0.9f), 0});
   if (!ImGui::BeginPopup("help")) return;
   heading("Keys");
   set_label_width(15);

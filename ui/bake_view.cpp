@@ -173,7 +173,9 @@ void BakeView::draw_controls(App& app) {
   heading("Plan");
   value("Jobs", stand > 0 ? fmt::format("{}, of which {} stand", plan.jobs.size(), stand)
                           : fmt::format("{}", plan.jobs.size()));
-  value("Time", "about " + seconds_text(plan.estimated_seconds), "Of what is to be made, on one core");
+  const bool nothing = stand == static_cast<std::ptrdiff_t>(plan.jobs.size());
+  value("Time", nothing ? "nothing to make" : "about " + seconds_text(plan.estimated_seconds),
+        "Of what is to be made, on one core");
   value("Memory",
         fmt::format("about {:.0f} MiB", static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
 }

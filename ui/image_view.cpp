@@ -175,6 +175,7 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
   list.AddRect(corner, far_corner, palette().line, ImGui::GetStyle().FrameRounding);
   ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
   ImGui::TextUnformatted(below.c_str());
+  if (hovered) items::record("Pixel", below);
   ImGui::PopStyleColor();
   ImGui::PopID();
 }

@@ -27,6 +27,7 @@ void run_loop(App& app, Surface& surface, Script* script) {
     app.frame();
     ImGui::Render();
     items::next_frame();
+    if (script != nullptr && script->is_random()) app.quit = false;
     surface.end_frame(app);
     if (app.screenshot_path.empty()) continue;
     try {

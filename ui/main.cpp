@@ -17,7 +17,7 @@ struct Options {
   std::string file, script, screenshot;
   bool headless = false;
   int width = 1280, height = 800;
-  bool no_session = false;
+  std::optional<std::string> session;
 };
 
 void run(const Options& options) {
@@ -35,9 +35,10 @@ void run(const Options& options) {
   const Extent size{options.width, options.height};
   ImGuiSession session;
   const auto surface = options.headless ? open_offscreen(size) : open_window(size);
-  App app(options.headless || options.no_session ? std::filesystem::path() : session_file());
+  App app(options.session    ? std::filesystem::path(*options.session)
+          : options.headless ? std::filesystem::path()
+                             : session_file());
   if (!options.file.empty()) app.open(options.file);
-  if (!script) script.reset();
   run_loop(app, *surface, script ? &*script : nullptr);
   if (!options.screenshot.empty()) {
     Script last(fmt::format("wait 4\nscreenshot \"{}\"", options.screenshot), "--screenshot");
@@ -59,7 +60,7 @@ int main(int argc, char** argv) {
   line.add_option("--screenshot", options.screenshot, "Write the last frame to this PNG.");
   line.add_option("--width", options.width, "Of the window.")->check(CLI::Range(320, 8192));
   line.add_option("--height", options.height, "Of the window.")->check(CLI::Range(240, 8192));
-  line.add_flag("--no-session", options.no_session, "Neither restore nor keep settings.");
+  line.add_option("--session", options.session, "Keep settings in this file; empty: nowhere.");
   line.set_version_flag("--version", std::string("bn-inspector ") + std::string(bn::kVersion));
   try {
     line.parse(argc, argv);

@@ -27,7 +27,7 @@ const std::map<std::string_view, std::pair<std::size_t, std::size_t>> kCommands{
     {"key", {1, 9}},          {"type", {1, 1}},     {"set", {2, 2}},    {"choose", {2, 2}},
     {"wait", {1, 1}},         {"wait-for", {2, 4}}, {"expect", {2, 3}}, {"screenshot", {1, 1}},
     {"resize", {2, 2}},       {"scale", {1, 1}},    {"theme", {1, 1}},  {"print", {1, 1}},
-    {"measure", {1, 1}},      {"quit", {0, 0}}};
+    {"measure", {1, 1}},      {"random", {2, 2}},   {"quit", {0, 0}}};
 
 /// Words are parted by spaces; "..." holds one with spaces, # begins a comment.
 std::vector<std::string> words_of(const std::string& line) {
@@ -187,6 +187,11 @@ bool Script::before_frame(App& app) {
       inputs_.pop_front();
       return true;
     }
+    if (random_left_ > 0) {
+      --random_left_;
+      queue_random(app);
+      continue;
+    }
     if (frames_to_wait_ > 0) {
       --frames_to_wait_;
       apply({.mouse = mouse_});
@@ -313,6 +318,10 @@ void Script::start(App& app, const Command& command) {
     frames_to_wait_ = 0;
     fmt::print("{}: {}\n", words[1], item(words[1]).text);
     std::fflush(stdout);
+  } else if (verb == "random") {
+    random_left_ = static_cast<int>(std::clamp(number(1), 0.0, 1e9));
+    random_seed_ = static_cast<std::uint64_t>(std::max(number(2), 0.0));
+    random_draws_ = 0;
   } else if (verb == "measure") {
     frames_to_wait_ = 0;
     measuring_ = true;

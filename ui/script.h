@@ -5,6 +5,7 @@
 #include <imgui.h>
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <string>
@@ -26,6 +27,9 @@ class Script {
   /// script has ended. Errors: verification_failed (an `expect` that does not hold, a wait that takes too
   /// long), invalid_input (no such item); each with its line.
   bool before_frame(App& app);
+
+  /// Random events go on; one of them may have asked to quit.
+  bool is_random() const { return random_left_ > 0; }
 
  private:
   struct Command {
@@ -51,7 +55,7 @@ class Script {
   void queue_click(ImVec2 at, bool right = false, bool ctrl = false);
   void queue_key(const std::string& chord);
   void queue_text(const std::string& text);
-  void measure(double seconds);
+  void queue_random(App& app);
   [[noreturn]] void fail(bool verdict, std::string what, std::string remedy = {}) const;
 
   using Clock = std::chrono::steady_clock;
@@ -65,6 +69,8 @@ class Script {
   std::vector<std::string> condition_;  ///< of a wait-for
   Clock::time_point deadline_{}, last_frame_{};
   bool measuring_ = false;
+  int random_left_ = 0;
+  std::uint64_t random_seed_ = 0, random_draws_ = 0;
   std::vector<double> frame_seconds_;
 };
 

@@ -1,0 +1,235 @@
+// Protects: what a user of the inspector sees and gets, driven through the real program without a display.
+
+#include "ui/inspector.h"
+
+#include <fstream>
+
+#include "bn/bake.h"
+#include "bn/noise.h"
+#include "bn/spectrum.h"
+
+namespace bn::ui {
+namespace {
+
+/// 0 is success; anything else shows what the program said.
+void expect_success(const Outcome& outcome) { EXPECT_EQ(outcome.exit_code, 0) << outcome.output; }
+
+TEST(Inspector, ShowsATextureItsVerdictAndTheLibrarysFigures) {
+  const Workplace here;
+  here.write_mask("mask.png", 64);
+  const FileContent content = read_image(here / "mask.png");
+  const ChannelSamples samples = samples_of_channel(content.image, 0);
+  const FiguresOfMerit figures = analyse(samples.value, {64, 64}, samples.low, samples.high).figures;
+  char band[32];
+  std::snprintf(band, sizeof band, "%.3g", figures.bands.mean[3]);
+  expect_success(here.script(R"(
+open mask.png
+wait-for Verified contains pass
+expect Size = "64 × 64"
+expect Kind = mask
+expect Seed = 1
+wait-for Check = pass
+expect "Power, f ≤ 0.25" = )" +
+                             std::string(band) + R"(
+expect Picture = "64 × 64"
+expect Spectrum = "64 × 64"
+screenshot shot.png
+)"));
+  const Image shot = read_image(here / "shot.png").image;
+  ASSERT_EQ(shot.size, (Extent{1280, 800}));
+  EXPECT_GT(contrast(shot, {0.05, 0.2, 0.40, 0.8}), 50.0) << "the mask";
+  EXPECT_GT(contrast(shot, {0.47, 0.1, 0.69, 0.45}), 20.0) << "its spectrum";
+  EXPECT_GT(contrast(shot, {0.73, 0.1, 0.98, 0.5}), 10.0) << "its facts";
+  EXPECT_GT(contrast(shot, {0.0, 0.0, 0.2, 0.07}), 5.0) << "menu and tabs";
+}
+
+TEST(Inspector, ShowsAStackOfSlicesAsAVolume) {
+  const Workplace here;
+  for (int i = 0; i < 16; ++i)
+    here.write_mask("stack/slice_" + std::to_string(i) + ".png", 32, static_cast<std::uint64_t>(i));
+  const Outcome outcome = here.script(R"(
+open stack
+wait-for Size = "32 × 32, 16 slices"
+expect Slice = 0
+set Slice 9
+wait-for Slice = 9
+hover Picture 0.5 0.5
+wait 3
+print Pixel
+click "Cut: XZ"
+wait-for Picture = "32 × 16"
+click "Cut: XY"
+wait-for Picture = "32 × 32"
+key space
+wait 30
+expect Slice != 9
+click Pause
+wait-for "Power in time at 0" > 0.3      # independent masks are white in time
+expect Check = FAIL
+wait-for Verified = "pass, 64 of 64 checks"
+)");
+  expect_success(outcome);
+  const Image slice = read_image(here / "stack/slice_9.png").image;
+  const int level = static_cast<int>(slice.samples[16 * 32 + 16]);
+  EXPECT_NE(outcome.output.find("Pixel: (16, 16)  " + std::to_string(level)), std::string::npos)
+      << outcome.output;
+}
+
+TEST(Inspector, BakesARecipeAndOpensItsResult) {
+  const Workplace here;
+  std::ofstream(here / "recipe.toml") << R"(version = 1
+[[mask]]
+name = "mask"
+size = [32, 32]
+outputs = ["mask.png"]
+[[retarget]]
+name = "moves"
+mask = "mask"
+radius = 4
+motion = 1
+outputs = [{ path = "atlas.png", kind = "atlas" }]
+)";
+  expect_success(here.script(R"(
+open recipe.toml
+wait-for Bake enabled
+expect Jobs = 3
+expect "mask mask" = "to make"
+set "Into folder" baked
+wait-for Bake enabled
+click Bake
+wait-for Status contains "Baked into baked"
+expect "retarget moves" = made
+expect Progress contains "100 %"
+screenshot bake.png
+click "Read again"
+wait-for "mask mask" = stands
+click atlas.png
+wait-for Size = "32 × 32, 9 slices"
+expect Columns = 3
+set Slice 4
+wait-for Motion = "(0, 0)"
+expect Optimum = proven
+wait-for Verified contains pass
+)"));
+  for (const VerifyItem& item : verify_path(here / "baked")) EXPECT_TRUE(item.pass) << item.check << item.detail;
+  EXPECT_GT(contrast(read_image(here / "bake.png").image, {0.28, 0.1, 0.7, 0.4}), 10.0);
+}
+
+TEST(Inspector, TellsErrorsAndLivesOn) {
+  const Workplace here;
+  here.write_mask("mask.png", 32);
+  write_image(here / "grey.png", {.size = {16, 16}, .channels = 1, .samples = std::vector<std::byte>(256)},
+              {});
+  std::ofstream(here / "broken.png") << "no image at all";
+  std::ofstream(here / "bad.toml") << "version = 1\n[[mask]]\nsize = [0, 64]\n";
+  std::ofstream(here / "good.toml")
+      << "version = 1\n[[mask]]\nname = \"m\"\nsize = [8, 8]\noutputs = [\"m.png\"]\n";
+  expect_success(here.script(R"(
+open broken.png
+wait-for Error contains broken.png
+click Dismiss
+wait-for Error gone
+open nowhere.png
+wait-for Error contains nowhere.png
+click Dismiss
+open bad.toml
+wait-for Error contains "bad.toml:3"
+click Dismiss
+open good.toml
+wait-for Bake enabled
+set "Into folder" broken.png/out        # a folder that cannot be made
+wait-for Error contains broken.png
+click Dismiss
+open grey.png                            # constant: no spectrum, but a picture
+wait-for Size = "16 × 16"
+wait-for "Peak power" = 0
+open mask.png
+wait-for Name = mask.png
+wait-for Verified contains pass
+expect Error gone
+)"));
+}
+
+TEST(Inspector, UndoesAndRedoesChangesOfSettings) {
+  const Workplace here;
+  std::ofstream(here / "recipe.toml")
+      << "version = 1\n[[mask]]\nname = \"m\"\nsize = [8, 8]\noutputs = [\"m.png\"]\n";
+  expect_success(here.script(R"(
+open recipe.toml
+wait-for Bake enabled
+set Threads 3
+wait-for Threads = 3
+set Threads 5
+wait-for Threads = 5
+key ctrl+z
+wait-for Threads = 3
+key ctrl+z
+wait-for Threads = 0
+key ctrl+y
+wait-for Threads = 3
+)"));
+}
+
+TEST(Inspector, KeepsItsSessionAndShrugsOffADamagedOne) {
+  const Workplace here;
+  here.write_mask("mask.png", 32);
+  expect_success(
+      here.script("open mask.png\nwait-for Size = \"32 × 32\"\nkey ctrl+d\nwait 3", "--session s.json"));
+  expect_success(here.script(
+      "wait-for Size = \"32 × 32\"\nexpect Texture = on\nclick View\nexpect Dark = off", "--session s.json"));
+  for (const char* text :
+       {"", "{", "[1,2]",
+        "{\"tab\": 7, \"scale\": \"-1\", \"dark\": \"maybe\", \"texture.slice\": \"1e99\"}"}) {
+    std::ofstream(here / "s.json") << text;
+    expect_success(here.script("wait 3\nexpect Run = on", "--session s.json"));
+  }
+}
+
+TEST(Inspector, SaysWhyItCannotStart) {
+  const Workplace here;
+  const Outcome no_display = here.shell("env -u DISPLAY -u WAYLAND_DISPLAY " BN_INSPECTOR);
+  EXPECT_EQ(no_display.exit_code, 2);
+  EXPECT_NE(no_display.output.find("--headless"), std::string::npos) << no_display.output;
+  const Outcome old = here.script("wait 1", "", "MESA_GL_VERSION_OVERRIDE=2.1");
+  EXPECT_EQ(old.exit_code, 2);
+  EXPECT_NE(old.output.find("OpenGL is older than 3.3"), std::string::npos) << old.output;
+  EXPECT_EQ(here.shell(BN_INSPECTOR " --headless").exit_code, 1);
+  EXPECT_EQ(here.shell(BN_INSPECTOR " --headless --screenshot nowhere/shot.png").exit_code, 2);
+  EXPECT_EQ(here.shell(BN_INSPECTOR " --headless --script nowhere.script").exit_code, 2);
+}
+
+TEST(Inspector, ScriptsFailWithTheirLine) {
+  const Workplace here;
+  const auto failure = [&](const char* script, int exit_code, const char* message) {
+    const Outcome outcome = here.script(script);
+    EXPECT_EQ(outcome.exit_code, exit_code) << script;
+    EXPECT_NE(outcome.output.find(message), std::string::npos) << script << outcome.output;
+  };
+  failure("wait 1\njump", 3, "test.script:2: there is no command \"jump\"");
+  failure("click", 3, "test.script:1: click takes");
+  failure("wait 2\nclick Nothing", 3, "nothing on the screen is called \"Nothing\"");
+  failure("wait 2\nexpect Run = off", 5, "test.script:2: expected Run = off; it is: on");
+  failure("wait-for Run = off 0.2", 5, "waited in vain");
+  failure("key strange", 3, "there is no key");
+}
+
+TEST(Inspector, IsReadableAtTwiceTheSizeInBothThemes) {
+  const Workplace here;
+  here.write_mask("mask.png", 64);
+  for (const std::string theme : {"dark", "light"}) {
+    expect_success(here.script("theme " + theme +
+                               "\nscale 2\nopen mask.png\nwait-for Size shown\nwait 3\nscreenshot shot.png"));
+    const Image shot = read_image(here / "shot.png").image;
+    EXPECT_GT(contrast(shot, {0.05, 0.35, 0.50, 0.7}), 50.0) << theme;
+    EXPECT_GT(contrast(shot, {0.56, 0.2, 0.95, 0.8}), 10.0) << theme;
+  }
+}
+
+TEST(Inspector, SurvivesRandomEvents) {
+  const Workplace here;
+  here.write_mask("mask.png", 32);
+  expect_success(here.script("resize 640 400\nopen mask.png\nrandom 400 1"));
+}
+
+}  // namespace
+}  // namespace bn::ui
