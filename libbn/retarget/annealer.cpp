@@ -221,6 +221,7 @@ class Run {
     }
     start_energy_ = chains_.front().engine->energy();
     if (!options.checkpoint.resume.empty()) resume();
+    trace_point();
   }
 
   AnnealResult run() {

@@ -57,6 +57,8 @@ TEST(AnnealParts, AnyMixtureOfBeatsAndSweepsEndsTheSame) {
       EXPECT_EQ(parts.tile.move, whole.tile.move) << pattern;
       EXPECT_EQ(parts.accepted, whole.accepted) << pattern;
       EXPECT_EQ(parts.proposals, whole.proposals) << pattern;
+      EXPECT_EQ(trace[0].proposals, 0);
+      EXPECT_EQ(trace[0].energy, whole.tile.start_energy);
       EXPECT_EQ(trace[trace.size() - 1].proposals, annealing.state().proposals);
       annealing.beat();
       annealing.sweep();
