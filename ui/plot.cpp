@@ -45,16 +45,23 @@ void draw_axes(const Canvas& c, const Figure& figure, const std::vector<Tick>& y
   const float gap = em(0.3f), height = ImGui::GetTextLineHeight();
   c.list.AddRectFilled(c.min, c.max, p.background);
   const auto grid = [&](const Tick& t) { return faded(p.line, t.text.empty() ? 90 : 200); };
-  float free_from = -FLT_MAX;
+  // The name of x stands among its numbers, where the widest gap is.
+  float free_from = -FLT_MAX, widest = 0.0f, name_at = 0.0f;
+  const float name_width = ImGui::CalcTextSize(figure.x.name.c_str()).x;
   for (const Tick& t : ticks_of(figure.x, x, (c.max.x - c.min.x) / em(5))) {
     const float at = std::round(c.place_x(t.value));
     c.list.AddLine({at, c.min.y}, {at, c.max.y}, grid(t));
-    const float half = 0.5f * ImGui::CalcTextSize(t.text.c_str()).x;
-    if (t.text.empty() || at - half < free_from) continue;
-    const float left = std::min(at - half, c.max.x - 2 * half + em(0.5f));
+    const float wide = ImGui::CalcTextSize(t.text.c_str()).x;
+    const float left = std::min(at - 0.5f * wide, c.max.x - wide + em(0.5f));
+    if (t.text.empty() || left < free_from) continue;
     c.list.AddText({left, c.max.y + gap}, p.dim_text, t.text.c_str());
-    free_from = at + half + em(0.8f);
+    if (free_from > 0.0f && left - free_from >= widest) {
+      widest = left - free_from;
+      name_at = 0.5f * (left + free_from - em(0.8f) - name_width);
+    }
+    free_from = left + wide + em(0.8f);
   }
+  if (name_width + em(0.8f) < widest) c.list.AddText({name_at, c.max.y + gap}, p.text, figure.x.name.c_str());
   float free_to = FLT_MAX;
   for (const Tick& t : y_ticks) {
     const float at = std::round(c.place_y(t.value));
@@ -72,10 +79,11 @@ void draw_heat(const Canvas& c, const HeatMap& heat) {
   for (int row = 0; row < static_cast<int>(heat.rows.size()); ++row) {
     for (int column = 0; column < heat.columns; ++column) {
       const double value = heat.values[static_cast<std::size_t>(row * heat.columns + column)];
-      if (std::isnan(value) || (heat.logarithmic && value <= 0.0)) continue;
+      if (std::isnan(value)) continue;
+      const double share = heat.logarithmic && value <= 0.0 ? 0.0 : colour.share(value);
       c.list.AddRectFilled({c.place_x(heat.x.low + column * width), c.place_y(row + 0.5)},
                            {c.place_x(heat.x.low + (column + 1) * width), c.place_y(row - 0.5)},
-                           heat_colour(colour.share(value)));
+                           heat_colour(share));
     }
   }
 }
@@ -92,7 +100,7 @@ void draw_colour_bar(const Canvas& c, const HeatMap& heat, float left) {
   for (const double share : {0.0, 0.5, 1.0}) {
     const float at = c.max.y - height * static_cast<float>(share);
     const float y = std::clamp(at - 0.5f * text, c.min.y - 0.2f * text, c.max.y - 0.9f * text);
-    c.list.AddText({left + em(0.8f), y}, palette().dim_text, short_number(colour.value(share)).c_str());
+    c.list.AddText({left + em(0.8f), y}, palette().dim_text, short_number(colour.value(share), 2).c_str());
   }
 }
 
@@ -199,18 +207,15 @@ Fit fit(const Figure& figure, const std::set<std::string>& hidden, const std::op
 
 /// Title and names; a click on a name hides its curve or brings it back.
 void draw_legend(const char* plot, const Figure& figure, float width, std::set<std::string>& hidden) {
-  const float left = ImGui::GetCursorPosX(), dash = em(1.0f), gap = em(0.35f);
+  const float dash = em(1.0f), gap = em(0.35f), space = em(1.0f);
   ImGui::TextUnformatted(figure.title.c_str());
-  float used = ImGui::CalcTextSize(figure.title.c_str()).x + em(1.2f);
+  float used = ImGui::CalcTextSize(figure.title.c_str()).x;
   const auto entry = [&](const std::string& name, ImU32 colour, bool dashed) {
     if (name.empty()) return;
     const float wide = dash + gap + ImGui::CalcTextSize(name.c_str()).x;
-    if (used + wide <= width) {
-      ImGui::SameLine(left + used);
-    } else {
-      used = 0.0f;
-    }
-    used += wide + em(1.0f);
+    const bool fits = used + space + wide <= width;
+    if (fits) ImGui::SameLine(0, space);
+    used = fits ? used + space + wide : wide;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float height = ImGui::GetTextLineHeight();
     if (ImGui::InvisibleButton(name.c_str(), {wide, height}) && !hidden.erase(name)) hidden.insert(name);
@@ -309,10 +314,10 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
     for (std::size_t i = 0; i < figure.heat->rows.size(); ++i)
       y_ticks.push_back({static_cast<double>(i), figure.heat->rows[i]});
   }
-  float label_width = em(2);
+  float label_width = em(3);  // enough for most, so that plots below each other are aligned
   for (const Tick& t : y_ticks) label_width = std::max(label_width, ImGui::CalcTextSize(t.text.c_str()).x);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float bar = figure.heat ? em(3.6f) : em(0.6f);
+  const float bar = figure.heat ? em(4.2f) : em(0.6f);
   const Canvas canvas{list,
                       {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
                       {corner.x + area.x - bar, corner.y + area.y - text - em(0.4f)},
@@ -351,9 +356,6 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
         {0.5f * (canvas.min.x + canvas.max.x - half.x), 0.5f * (canvas.min.y + canvas.max.y - half.y)},
         p.dim_text, figure.empty.c_str());
   }
-  const float name_width = ImGui::CalcTextSize(figure.x.name.c_str()).x;
-  list.AddText({canvas.max.x - name_width - em(0.3f), canvas.max.y - text - em(0.1f)}, p.dim_text,
-               figure.x.name.c_str());
   list.AddRect(canvas.min, canvas.max, p.line);
   if (inside && figure.heat && figure.heat->describe) {
     const HeatMap& heat = *figure.heat;

@@ -88,7 +88,7 @@ class Plot {
   std::optional<ImVec2> box_from_;  ///< where the right button went down
 };
 
-/// "1e9", "0.25", "3638": short, as on an axis.
-std::string short_number(double value);
+/// "1e9", "0.25", "3638": short, as on an axis; at most `digits` that count.
+std::string short_number(double value, int digits = 5);
 
 }  // namespace bn::ui

@@ -67,23 +67,23 @@ std::vector<Tick> ticks_of(const Axis& axis, Interval range, double most) {
   return ticks;
 }
 
-std::string short_number(double value) {
+std::string short_number(double value, int digits) {
   const double size = std::abs(value);
   if (value == 0.0) return "0";
   if (size >= 1e5 || size < 1e-3) {
-    std::string text = fmt::format("{:.4g}", value);
+    std::string text = fmt::format("{:.{}g}", value, digits);
     // "1e+09" is "1e9"; what is no power stays short too: "2.5e8".
-    if (text.find('e') == std::string::npos) text = fmt::format("{:.3e}", value);
+    if (text.find('e') == std::string::npos) text = fmt::format("{:.{}e}", value, digits - 1);
     const auto e = text.find('e');
-    std::string digits = text.substr(0, e), power = text.substr(e + 1);
-    if (digits.find('.') != std::string::npos) {
-      digits.erase(digits.find_last_not_of('0') + 1);
-      if (digits.back() == '.') digits.pop_back();
+    std::string mantissa = text.substr(0, e), power = text.substr(e + 1);
+    if (mantissa.find('.') != std::string::npos) {
+      mantissa.erase(mantissa.find_last_not_of('0') + 1);
+      if (mantissa.back() == '.') mantissa.pop_back();
     }
     const bool minus = power[0] == '-';
     power.erase(0, power.find_first_not_of("+-0"));
-    return fmt::format("{}e{}{}", digits, minus ? "-" : "", power);
+    return fmt::format("{}e{}{}", mantissa, minus ? "-" : "", power);
   }
-  return fmt::format("{:.5g}", value);
+  return fmt::format("{:.{}g}", value, digits);
 }
 }  // namespace bn::ui

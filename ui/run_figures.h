@@ -1,0 +1,47 @@
+// The curves of annealing runs, as figures for plots.
+
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "ui/optimum.h"
+#include "ui/plot.h"
+#include "ui/run.h"
+#include "ui/run_settings.h"
+
+namespace bn::ui {
+
+/// A run with all that it came from. The Run view shows one, the Compare view keeps several.
+struct RunEntry {
+  int number = 0;  ///< counted from 1 in the session
+  std::shared_ptr<const Source> source;
+  RunSettings settings;
+  std::shared_ptr<Run> run;
+  std::shared_ptr<Optimum> optimum;  ///< null: this energy has no exact solver
+
+  std::string name() const;  ///< "#2 exponential"
+};
+
+/// A run as it is drawn.
+struct DrawnRun {
+  const RunEntry* entry;
+  ImU32 colour;
+};
+
+/// What curves are drawn over.
+enum class Over { proposals, seconds };
+
+Figure energy_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
+Figure temperature_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
+/// Of all proposals; of a run alone, also of the worsening ones.
+Figure acceptance_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
+/// Accepted share of worsening swaps over the run and their size.
+Figure surface_figure(const RunEntry& entry);
+
+/// How far an energy is above the proven optimum, in percent. None:
+/// there is no optimum, or it is 0.
+std::optional<double> gap_percent(const RunEntry& entry, std::int64_t energy);
+
+}  // namespace bn::ui

@@ -1,0 +1,216 @@
+#include "ui/run_pictures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "ui/parameters.h"
+#include "ui/theme.h"
+#include "ui/widgets.h"
+
+namespace bn::ui {
+namespace {
+
+Picture picture_of(const Grid<std::int32_t>& levels) {
+  Picture picture;
+  picture.size = levels.size();
+  picture.values.assign(levels.begin(), levels.end());
+  picture.low = 0.0f;
+  // Levels are 8 or 16 bit; others are shown up to their greatest.
+  const std::int32_t most = levels.count() == 0 ? 0 : *std::max_element(levels.begin(), levels.end());
+  picture.high = most < 256 ? 255.0f : static_cast<float>(std::max(most, 65535));
+  return picture;
+}
+
+/// Calls visit(index of u, index of u + R(u)).
+template <class Visit>
+void for_each_move(const Grid<Offset>& move, Visit visit) {
+  const auto [width, height] = move.size();
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t from =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+      const Offset r = move[from];
+      const int to_x = wrap(std::int64_t{x} + r.x, width), to_y = wrap(std::int64_t{y} + r.y, height);
+      visit(from, static_cast<std::size_t>(to_y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(to_x));
+    }
+  }
+}
+
+}  // namespace
+
+Picture permuted_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move) {
+  Picture picture = picture_of(levels);
+  for_each_move(
+      move, [&](std::size_t from, std::size_t to) { picture.values[to] = static_cast<float>(levels[from]); });
+  return picture;
+}
+
+Picture target_picture(const Grid<std::int32_t>& levels, Offset step) {
+  Picture picture = picture_of(levels);
+  std::size_t at = 0;
+  for (int y = 0; y < levels.height(); ++y) {
+    for (int x = 0; x < levels.width(); ++x) {
+      picture.values[at++] =
+          static_cast<float>(levels.torus(std::int64_t{x} + step.x, std::int64_t{y} + step.y));
+    }
+  }
+  return picture;
+}
+
+Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step) {
+  Picture picture = permuted_picture(levels, move);
+  const Picture target = target_picture(levels, step);
+  for (std::size_t i = 0; i < picture.values.size(); ++i)
+    picture.values[i] = std::abs(picture.values[i] - target.values[i]);
+  // White is an eighth of all levels: what annealing leaves is small, and must be seen.
+  picture.high = std::max(1.0f, std::round(picture.high / 8.0f));
+  return picture;
+}
+
+Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options) {
+  Picture picture;
+  picture.size = move.size();
+  picture.channels = 2;
+  const Offset m = options.motion;
+  const float reach = static_cast<float>(options.radius) *
+                      (options.reach == Reach::euclidean ? 1.0f : std::numbers::sqrt2_v<float>);
+  for (const Offset r : move) {
+    const float x = static_cast<float>(r.x - m.x), y = static_cast<float>(r.y - m.y);
+    const float hue = std::atan2(-y, x) / (2.0f * std::numbers::pi_v<float>);
+    float red = 0, green = 0, blue = 0;
+    ImGui::ColorConvertHSVtoRGB(hue < 0 ? hue + 1.0f : hue, std::min(1.0f, std::hypot(x, y) / reach * 1.2f),
+                                1.0f, red, green, blue);
+    picture.colours.push_back(ImGui::ColorConvertFloat4ToU32({red, green, blue, 1.0f}));
+    picture.values.push_back(static_cast<float>(r.x));
+    picture.values.push_back(static_cast<float>(r.y));
+  }
+  return picture;
+}
+
+void RunPictures::parameters(Parameters& p) {
+  link_.parameters(p);
+  p("run.spectrum_of", spectrum_of_, 0, 2);
+}
+
+void RunPictures::show(std::shared_ptr<const Source> source, const AnnealProblem& problem,
+                       std::shared_ptr<const Placement> placement) {
+  const RetargetOptions& o = problem.retarget;
+  const bool same_image = source == source_ && o.step == options_.step && o.motion == options_.motion;
+  if (same_image && placement == placement_ && o.radius == options_.radius && o.reach == options_.reach)
+    return;
+  source_ = std::move(source);
+  placement_ = std::move(placement);
+  options_ = o;
+  if (!source_) {
+    for (ImageView* view : {&permuted_, &target_, &difference_, &offsets_, &spectrum_}) view->clear();
+    curve_.reset();
+    return;
+  }
+  const Grid<std::int32_t>& levels = source_->levels.value;
+  // Before a run nothing but the motion has moved.
+  const Grid<Offset> still = placement_ ? Grid<Offset>() : Grid<Offset>(levels.size(), o.motion);
+  const Grid<Offset>& move = placement_ ? placement_->move : still;
+  permuted_.set(permuted_picture(levels, move));
+  if (!same_image || target_.empty()) target_.set(target_picture(levels, o.step));
+  difference_.set(difference_picture(levels, move, o.step));
+  offsets_.set(offset_picture(move, o));
+  spectrum_stale_ = true;
+}
+
+void RunPictures::take_spectrum() {
+  if (auto transformed = transform_.poll()) {
+    const Grid<std::uint8_t>& power = transformed->picture;
+    Picture picture;
+    picture.size = power.size();
+    picture.values.assign(power.begin(), power.end());
+    picture.describe = [size = power.size()](int x, int y) {
+      return fmt::format("f = ({:.3f}, {:.3f}) cycles/pixel",
+                         static_cast<double>(x - size.width / 2) / size.width,
+                         static_cast<double>(y - size.height / 2) / size.height);
+    };
+    spectrum_.set(std::move(picture));
+    curve_ = std::move(transformed->curve);
+  }
+  if (!spectrum_stale_ || transform_.running() || !source_) return;
+  spectrum_stale_ = false;
+  const ImageView& from = spectrum_of_ == 0 ? permuted_ : spectrum_of_ == 1 ? target_ : difference_;
+  const Picture& shown = from.picture();
+  transform_.start(
+      [values = std::vector<double>(shown.values.begin(), shown.values.end()),
+       size = shown.size](const Execution& execution) {
+        const PowerSpectrum power = power_spectrum(values, {size.width, size.height, 1}, execution);
+        return Transformed{log_picture(power), radial_power(power)};
+      },
+      1);
+}
+
+void RunPictures::draw(ImVec2 size, bool ranges) {
+  take_spectrum();
+  constexpr int kPictures = 5;
+  const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
+  draw_link_controls(link_);
+  ImGui::SameLine(0, em(1.5f));
+  static constexpr const char* kOf[] = {"permuted", "target", "difference"};
+  set_label_width(0);
+  if (choice("Spectrum of", kOf, spectrum_of_)) spectrum_stale_ = true;
+  const float bar = ImGui::GetFrameHeightWithSpacing(), line = ImGui::GetTextLineHeightWithSpacing();
+  const float range = ranges ? em(2.5f) + row_gap : 0.0f;
+  // As many columns as make the pictures largest.
+  int columns = 1;
+  float width = 0.0f, height = 0.0f;
+  for (int c = 1; c <= kPictures; ++c) {
+    const int rows = (kPictures + c - 1) / c;
+    const float w = (size.x - gap * static_cast<float>(c - 1)) / static_cast<float>(c);
+    const float h = std::max(em(7), (size.y - bar) / static_cast<float>(rows) - line - range - row_gap);
+    // Below the picture stands a line of values.
+    if (c > 1 && std::min(w, h - line) <= std::min(width, height - line)) continue;
+    columns = c, width = w, height = h;
+  }
+  const std::tuple<const char*, ImageView*, ViewLink*, const char*> all[] = {
+      {"Permuted", &permuted_, &link_, "The mask after the seeds have moved: at u + R(u) the level of u"},
+      {"Target", &target_, &link_, "The next frame's mask: the same one, moved by the step"},
+      {"Difference", &difference_, &link_, "Its sum is the energy (L1)"},
+      {"Offsets", &offsets_, &link_, "Where each seed goes: the hue is the direction, pale is near"},
+      {"Spectrum", &spectrum_, &spectrum_link_, "Power in decibels, frequency 0 in the middle"}};
+  int i = 0;
+  for (const auto& [name, view, link, hint] : all) {
+    if (i++ % columns != 0) ImGui::SameLine();
+    ImGui::BeginGroup();
+    ImGui::TextUnformatted(name);
+    tooltip(hint);
+    view->draw(name, *link, {width, height});
+    if (ranges) {
+      ImGui::BeginChild(name, {width, em(2.5f)}, false,
+                        ImGuiWindowFlags_NoBackground | ImGuiWindowFlags_NoScrollbar);
+      view->draw_range(fmt::format("{} range", name).c_str(), em(2.2f));
+      ImGui::EndChild();
+    }
+    ImGui::EndGroup();
+  }
+}
+
+Figure RunPictures::spectrum_figure() const {
+  Figure figure;
+  static constexpr const char* kOf[] = {"permuted mask", "target", "difference"};
+  figure.title = "Power";
+  figure.x.name = "cycles/pixel";
+  figure.y.logarithmic = true;
+  figure.x.low = 0.0;
+  figure.x.high = std::numbers::sqrt2 / 2;
+  if (!curve_) return figure;
+  Curve curve;
+  curve.name = kOf[spectrum_of_];
+  curve.colour = palette().series[0];
+  curve.x = curve_->frequency;
+  curve.y = curve_->power;
+  figure.curves.push_back(std::move(curve));
+  figure.levels.push_back({.name = "white noise", .colour = palette().dim_text, .y = 1.0});
+  return figure;
+}
+
+}  // namespace bn::ui

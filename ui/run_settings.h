@@ -1,0 +1,77 @@
+// What a run is made from: the parameters of the Run view, and the column that shows them.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bn/bake.h"
+#include "ui/source.h"
+
+namespace bn::ui {
+
+class Parameters;
+
+struct RunSettings {
+  // the image
+  bool bakes_mask = true;
+  std::int64_t mask_width = 64, mask_height = 64;
+  double mask_sigma_px = 1.9;
+  std::int64_t mask_seed = 1;
+  std::filesystem::path file;
+  int channel = 0;
+  // the energy
+  bool auto_step = true;
+  int step_x = 48, step_y = 36;
+  int radius = 6;
+  int reach = 0;                 ///< as Reach
+  int metric = 0;                ///< as Metric; 2: L2 of the residual
+  double residual_sigma_px = 1;  ///< of that
+  int motion_x = 0, motion_y = 0;
+  bool wraps = true;
+  // annealing
+  int schedule = 0;                ///< index into schedule_names()
+  int start_rule = 0;              ///< as StartTemperature::Rule
+  double start_temperature = 3.0;  ///< given
+  double start_acceptance = 0.2;   ///< of that rule
+  bool auto_end = true;
+  double end_temperature = 0.5;
+  double proposals = 1e9;
+  std::int64_t seed = 1;
+  int threads = 1;
+
+  void parameters(Parameters& p);
+
+  SourceChoice source() const;
+  AnnealProblem problem(const Source& source) const;
+  AnnealOptions options() const;
+  std::string schedule_name() const;
+  /// "exponential, 1e9 proposals, seed 1".
+  std::string text() const;
+  /// The same run as a recipe has it, for a tile at `file`. Errors: invalid_input, saying what recipes
+  /// cannot.
+  RetargetEntry entry(const AnnealResult& result, const std::filesystem::path& file) const;
+};
+
+/// The widgets of these settings, one group each. `source` may be null. True: the image must be loaded again.
+void draw_image_settings(RunSettings& settings, const Source* source);
+void draw_energy_settings(RunSettings& settings, const Source* source);
+void draw_schedule_settings(RunSettings& settings);
+
+/// The formula of a schedule, and what stands in it.
+struct Formula {
+  std::string text;
+  std::vector<std::string> where;
+};
+Formula formula_of(const CoolingSchedule& schedule);
+
+/// The temperature at each of `count` steps, evenly over a run of `proposals`, as it is planned: stages at
+/// their longest.
+struct PlannedCurve {
+  std::vector<double> proposals, temperature;
+};
+PlannedCurve planned_curve(const CoolingSchedule& schedule, std::int64_t proposals, int count);
+
+}  // namespace bn::ui

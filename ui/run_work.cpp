@@ -1,0 +1,164 @@
+// What the Run view does beside drawing: loading, previewing, starting and saving, off the window's thread
+// where it takes time.
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "ui/app.h"
+#include "ui/parameters.h"
+#include "ui/run_view.h"
+
+namespace bn::ui {
+namespace {
+
+bool same(const RetargetOptions& a, const RetargetOptions& b) {
+  return a.step == b.step && a.motion == b.motion && a.radius == b.radius && a.reach == b.reach &&
+         a.metric == b.metric && a.wrap == b.wrap;
+}
+
+}  // namespace
+
+void RunView::load_source(App& app) {
+  const SourceChoice choice = settings_.source();
+  if (!ImGui::IsAnyItemActive() &&
+      !(choice == loaded_choice_ && (source_ || load_failed_ || loading_.running()))) {
+    loaded_choice_ = choice;
+    source_.reset();
+    load_failed_ = false;
+    loading_.start([choice](const Execution& execution) { return bn::ui::load_source(choice, execution); });
+  }
+  try {
+    if (auto source = loading_.poll()) source_ = std::make_shared<const Source>(std::move(*source));
+  } catch (...) {
+    load_failed_ = true;
+    start_wanted_ = false;
+    // Nothing chosen yet is no error until someone wants to start.
+    if (!choice.file.empty() || choice.baked) app.report_in_flight();
+  }
+}
+
+void RunView::make_preview(App& app) {
+  if (source_ && !ImGui::IsAnyItemActive()) {
+    Settings all;
+    Parameters saving = Parameters::saving(all);
+    settings_.parameters(saving);
+    std::string now;
+    for (const auto& [name, text] : all) now += name + '=' + text + '\n';
+    if (now != previewed_) {
+      previewed_ = now;
+      previewing_.start(
+          [source = source_, problem = settings_.problem(*source_),
+           options = settings_.options()](const Execution& execution) {
+            // An annealing that makes no step knows the temperatures that it would have.
+            const AnnealResult result = Annealing(problem, options, execution).result();
+            const TemperatureRange range{result.start_temperature, result.end_temperature};
+            return Preview{range, make_schedule(options.schedule, range.start, range.end, options.proposals),
+                           options.proposals};
+          },
+          1);
+    }
+  }
+  try {
+    if (auto preview = previewing_.poll()) preview_ = std::move(preview);
+  } catch (...) {
+    preview_.reset();
+    app.report_in_flight();
+  }
+}
+
+void RunView::begin_run(App& app) {
+  try {
+    check_source(*source_);
+    auto entry = std::make_shared<RunEntry>();
+    entry->number = runs_ + 1;
+    entry->source = source_;
+    entry->settings = settings_;
+    RunSetup setup{settings_.problem(*source_), settings_.options(), settings_.threads};
+    if (Optimum::exists_for(setup.problem)) {
+      const bool known = entry_ && entry_->optimum && entry_->source == source_ &&
+                         same(entry_->run->setup().problem.retarget, setup.problem.retarget);
+      entry->optimum = known ? entry_->optimum : std::make_shared<Optimum>(setup.problem);
+    }
+    if (entry_) entry_->run->stop();
+    entry->run = std::make_shared<Run>(std::move(setup), start_paused_);
+    ++runs_;
+    entry_ = std::move(entry);
+    told_ = Phase::preparing;
+    app.compare.add(entry_);
+  } catch (...) {
+    app.report_in_flight();
+  }
+}
+
+void RunView::begin_when_ready(App& app) {
+  if (!start_wanted_) return;
+  if (source_ && settings_.source() == loaded_choice_) {
+    start_wanted_ = false;
+    begin_run(app);
+  } else if (load_failed_) {
+    start_wanted_ = false;
+  }
+}
+
+void RunView::update(App& app) {
+  load_source(app);
+  make_preview(app);
+  begin_when_ready(app);
+  try {
+    if (auto saved = saving_.poll())
+      app.say(fmt::format("Saved {}: {}", saved->file.string(), saved->detail));
+  } catch (...) {
+    app.report_in_flight();
+  }
+  if (!entry_) return;
+  if (entry_->optimum) entry_->optimum->poll();
+  const Standing standing = entry_->run->standing();
+  if (standing.phase == std::exchange(told_, standing.phase)) return;
+  if (standing.error) app.report(Error(*standing.error));
+  if (standing.phase == Phase::finished) {
+    app.say(fmt::format("{} has finished: energy {}", entry_->name(), entry_->run->result()->tile.energy));
+  }
+}
+
+void RunView::save(App& app, const std::filesystem::path& file) {
+  try {
+    const auto result = entry_->run->result();
+    RetargetEntry entry = entry_->settings.entry(result.value(), file);
+    RetargetTile tile = result->tile;
+    const RetargetTile* optimum = entry_->optimum ? entry_->optimum->tile() : nullptr;
+    tile.lower_bound = optimum != nullptr ? optimum->lower_bound : -1;
+    saving_.start([entry, tile, source = entry_->source, file](const Execution& execution) mutable {
+      if (source->choice.baked) {
+        // A tile names its source; a mask that was baked on the spot becomes a file beside it.
+        MaskEntry mask{.name = file.stem().string() + "-mask", .options = source->choice.mask};
+        mask.outputs = {{.path = (file.parent_path() / (mask.name + ".png")).string()}};
+        make_mask(mask, execution);
+        entry.image = mask.outputs[0].path;
+      } else {
+        entry.image = source->choice.file.string();
+      }
+      if (tile.lower_bound < 0) {
+        RetargetOptions bound = entry.options;
+        bound.step = entry.step ? *entry.step : auto_step(source->levels.value.size()).step;
+        bound.motion = entry.outputs[0].motion;
+        bound.gap = 0.01;
+        tile.lower_bound = solve_retarget(source->levels.value, bound, execution).lower_bound;
+      }
+      write_retarget(entry, tile, execution);
+      return Saved{file, fmt::format("energy {}, at least {}", tile.energy, tile.lower_bound)};
+    });
+  } catch (...) {
+    app.report_in_flight();
+  }
+}
+
+void RunView::ask_save(App& app) {
+  app.ask("Save the texture", FileChooser::Want::save, save_path_,
+          [this, &app](const std::filesystem::path& path) {
+            save_path_ = path.string();
+            save(app, path);
+          });
+}
+
+}  // namespace bn::ui
