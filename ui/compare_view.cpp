@@ -6,6 +6,7 @@
 
 #include "ui/app.h"
 #include "ui/compare_export.h"
+#include "ui/flow.h"
 #include "ui/keys.h"
 #include "ui/parameters.h"
 #include "ui/widgets.h"
@@ -142,7 +143,8 @@ void CompareView::draw(App& app) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float rows = static_cast<float>(std::min<std::size_t>(kept_.size(), 6)) + 1.0f;
   const float table = rows * (ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
-                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
+                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y +
+                      ImGui::GetStyle().ScrollbarSize;
   begin_panel("runs", {0, std::min(table, room.y * 0.45f)});
   draw_table();
   const bool any = std::any_of(kept_.begin(), kept_.end(), [](const Kept& k) { return k.shown; });
@@ -154,11 +156,12 @@ void CompareView::draw(App& app) {
   end_panel();
   const ImVec2 rest = ImGui::GetContentRegionAvail();
   const bool wide = rest.x > em(48);
-  begin_panel("curves", wide ? ImVec2(rest.x * 0.5f, 0) : ImVec2(0, std::max(em(16), rest.y * 0.5f)));
+  const float high = wide ? std::max(em(24), rest.y) : em(32);
+  begin_panel("curves", {wide ? rest.x * 0.5f : 0.0f, high});
   draw_plots(ImGui::GetContentRegionAvail());
   end_panel();
   if (wide) ImGui::SameLine();
-  begin_panel("pictures", {0, wide ? 0.0f : std::max(em(18), ImGui::GetContentRegionAvail().y)});
+  begin_panel("pictures", {0, high});
   draw_pictures(ImGui::GetContentRegionAvail());
   end_panel();
   set_label_width(8);
@@ -262,8 +265,8 @@ void CompareView::draw_pictures(ImVec2 size) {
   set_label_width(0);
   static constexpr const char* kWhat[] = {"permuted", "difference", "offsets"};
   choice("##what", kWhat, what_);
-  ImGui::SameLine(0, em(1.0f));
   static constexpr const char* kModes[] = {"A | B", "Flip", "Split"};
+  flow(choice_width("", kModes), em(1.0f));
   if (choice("##mode", kModes, mode_,
              "Side by side; one in the other's place (X changes over); A to the left of a line, B to its "
              "right")) {
@@ -271,12 +274,12 @@ void CompareView::draw_pictures(ImVec2 size) {
   }
   draw_link_controls(link_);
   if (mode_ == 1) {
-    ImGui::SameLine();
+    flow(button_width("Change over"));
     if (button("Change over", true, "Show the other one (X)") || shortcut("x"))
       flipped_ = !flipped_, compose_ = true;
   }
   if (mode_ == 2) {
-    ImGui::SameLine();
+    flow(em(8));
     if (slider("##split", split_, 0.0, 1.0, "split at %.2f")) compose_ = true;
   }
   const bool new_a = refresh(a_), new_b = refresh(b_);

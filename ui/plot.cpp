@@ -303,8 +303,11 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   const ImVec2 area{size.x, std::max(em(4), size.y - (corner.y - top.y))};
   ImGui::InvisibleButton("area", area, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
-  const std::size_t shown = figure.curves.size() + (figure.heat ? 1 : 0);
-  items::record(name, fitting.points == 0 ? "empty" : fmt::format("{} of {} shown", fitting.points, shown));
+  const auto curves = std::count_if(figure.curves.begin(), figure.curves.end(),
+                                    [&](const Curve& curve) { return !hidden_.contains(curve.name); });
+  items::record(name, fitting.points == 0 ? "empty"
+                      : figure.heat       ? fmt::format("{} cells", fitting.points)
+                                          : fmt::format("{} curves, {} points", curves, fitting.points));
   const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
 
   const float text = ImGui::GetTextLineHeight();

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "ui/flow.h"
 #include "ui/parameters.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -153,12 +154,13 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
   take_spectrum();
   constexpr int kPictures = 5;
   const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
+  const float before = ImGui::GetCursorPosY();
   draw_link_controls(link_);
-  ImGui::SameLine(0, em(1.5f));
   static constexpr const char* kOf[] = {"permuted", "target", "difference"};
   set_label_width(0);
+  flow(choice_width("Spectrum of", kOf), em(1.5f));
   if (choice("Spectrum of", kOf, spectrum_of_)) spectrum_stale_ = true;
-  const float bar = ImGui::GetFrameHeightWithSpacing(), line = ImGui::GetTextLineHeightWithSpacing();
+  const float bar = ImGui::GetCursorPosY() - before, line = ImGui::GetTextLineHeightWithSpacing();
   const float range = ranges ? em(2.5f) + row_gap : 0.0f;
   // As many columns as make the pictures largest.
   int columns = 1;

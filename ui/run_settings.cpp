@@ -148,9 +148,10 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
 
 void draw_image_settings(RunSettings& s, const Source* source) {
   heading("Image");
-  static constexpr const char* kFrom[] = {"Bake a mask", "File"};
+  static constexpr const char* kFrom[] = {"Bake", "File"};
   int from = s.bakes_mask ? 0 : 1;
-  if (choice("From", kFrom, from)) s.bakes_mask = from == 0;
+  if (choice("From", kFrom, from, "A void-and-cluster mask made on the spot, or an image file"))
+    s.bakes_mask = from == 0;
   if (s.bakes_mask) {
     field("Width", s.mask_width, 1, 16384, "Pixels, 1..16384");
     field("Height", s.mask_height, 1, 16384, "Pixels, 1..16384");
@@ -160,7 +161,7 @@ void draw_image_settings(RunSettings& s, const Source* source) {
           "Equal seeds give equal masks");
   } else {
     std::string path = s.file.string();
-    if (field("Path", path, "Any image that OpenImageIO reads; or drop a file onto the window"))
+    if (field("Image file", path, "Any image that OpenImageIO reads; or drop a file onto the window"))
       s.file = path;
     const int most = source != nullptr && !source->choice.baked ? source->channels - 1 : 63;
     slider("Channel", s.channel, 0, std::max(most, s.channel), "0 is red");
@@ -182,7 +183,7 @@ void draw_energy_settings(RunSettings& s, const Source* source) {
   slider("Radius", s.radius, 1, 32, "The farthest a seed may move, in pixels");
   static constexpr const char* kShapes[] = {"Square", "Disc"};
   choice("Shape", kShapes, s.reach, "How the radius is measured: Chebyshev or Euclidean");
-  static constexpr const char* kMetrics[] = {"L1", "L2", "L2 blurred"};
+  static constexpr const char* kMetrics[] = {"L1", "L2", "Blurred"};
   choice("Metric", kMetrics, s.metric,
          "Cost of a difference of levels: its size, its square, or the square of what a blur leaves of all "
          "differences; the "

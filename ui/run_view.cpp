@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "ui/app.h"
+#include "ui/flow.h"
 #include "ui/keys.h"
 #include "ui/parameters.h"
 #include "ui/widgets.h"
@@ -91,13 +94,18 @@ void RunView::draw(App& app) {
     pictures_.show(source_, settings_.problem(*source_), nullptr);
   }
   const ImVec2 room = ImGui::GetContentRegionAvail();
+  // In a narrow window the panels are as high as they need, and all of it scrolls.
+  const bool narrow = room.x < em(40);
   if (layout_ != 1) {
-    begin_panel("pictures", {0, layout_ == 2 ? 0.0f : std::max(em(14), room.y * 0.42f)});
+    const float tall = 1.5f * room.x + em(12);
+    begin_panel("pictures", {0, narrow         ? tall
+                                : layout_ == 2 ? std::max(em(20), room.y)
+                                               : std::max(em(14), room.y * 0.42f)});
     pictures_.draw(ImGui::GetContentRegionAvail(), layout_ == 2);
     end_panel();
   }
   if (layout_ != 2) {
-    begin_panel("plots");
+    begin_panel("plots", {0, narrow ? em(60) : std::max(em(20), ImGui::GetContentRegionAvail().y)});
     draw_plots(ImGui::GetContentRegionAvail());
     end_panel();
   }
@@ -106,7 +114,7 @@ void RunView::draw(App& app) {
 }
 
 void RunView::draw_settings(App& app) {
-  set_label_width(8);
+  set_label_width(6.5f);
   draw_image_settings(settings_, source_.get());
   if (!settings_.bakes_mask && button("Choose …")) {
     app.ask("Open an image", FileChooser::Want::open, settings_.file,
@@ -151,26 +159,27 @@ void RunView::draw_controls(App& app) {
   if (main_button(paused ? "Go on" : "Start", !live || paused, "Anneal with these settings (space)")) {
     live ? run->start() : fresh(false);
   }
-  ImGui::SameLine();
-  if (button("Pause", live && !paused, "Halt between two beats (space)")) run->pause();
-  ImGui::SameLine();
-  if (button("One sweep", true, "Half as many proposals as pixels, then a pause (S)"))
+  const auto next = [](const char* label, bool enabled, const char* hint, float gap = 0.5f) {
+    flow(button_width(label), em(gap));
+    return button(label, enabled, hint);
+  };
+  if (next("Pause", live && !paused, "Halt between two beats (space)")) run->pause();
+  if (next("One sweep", true, "Half as many proposals as pixels, then a pause (S)")) {
     live ? run->sweep() : fresh(true);
-  ImGui::SameLine();
-  if (button("Restart", run != nullptr,
-             "From the identity, with the settings as they are now; the run so far stays in Compare"))
+  }
+  if (next("Restart", run != nullptr,
+           "From the identity, with the settings as they are now; the run so far stays in Compare")) {
     fresh(false);
-  ImGui::SameLine();
-  if (button("Stop", live, "For good; what was found stays")) run->stop();
-  ImGui::SameLine(0, em(1.5f));
-  if (button("Save texture …", phase == Phase::finished && run != nullptr && !saving_.running(),
-             "The tile as a file that bn verify proves (Ctrl+S). Of a finished run: its recipe makes it "
-             "again")) {
+  }
+  if (next("Stop", live, "For good; what was found stays")) run->stop();
+  if (next("Save texture …", phase == Phase::finished && run != nullptr && !saving_.running(),
+           "The tile as a file that bn verify proves (Ctrl+S). Of a finished run: its recipe makes it again",
+           1.5f)) {
     ask_save(app);
   }
-  ImGui::SameLine(0, em(1.5f));
   set_label_width(0);
   static constexpr const char* kLayouts[] = {"All", "Plots", "Pictures"};
+  flow(choice_width("", kLayouts), em(1.5f));
   choice("##layout", kLayouts, layout_);
 }
 
@@ -185,8 +194,6 @@ void RunView::draw_standing() {
   const auto gap = any ? gap_percent(*entry_, energy) : std::nullopt;
   const RetargetTile* optimum = any && entry_->optimum ? entry_->optimum->tile() : nullptr;
 
-  begin_panel("standing", {0, 2 * ImGui::GetTextLineHeight() + 3.2f * ImGui::GetStyle().WindowPadding.y +
-                                  ImGui::GetFrameHeight()});
   const auto percent_of_start = [&](std::int64_t e) {
     return standing.start_energy > 0
                ? fmt::format(" ({:.2f} %)",
@@ -214,15 +221,23 @@ void RunView::draw_standing() {
       {"Time", any ? time_text(state.seconds) : "–"},
       {"Left", standing.seconds_left ? time_text(*standing.seconds_left) : "–"}};
   constexpr float kWidths[] = {5.5f, 9.5f, 5.5f, 4.5f, 6.5f, 5.5f, 6.0f, 5.0f, 5.0f};
-  float x = ImGui::GetCursorPosX();
-  const float left = x, right = left + ImGui::GetContentRegionAvail().x;
-  for (std::size_t i = 0; i < std::size(cells); ++i) {
-    if (x > left && x + em(kWidths[i]) <= right + em(1))
-      ImGui::SameLine(x);
-    else
-      x = left;
-    figure_cell(cells[i].first, cells[i].second);
+  // Where each cell stands, so that the panel is as high as they need.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float room = ImGui::GetContentRegionAvail().x - 2 * style.WindowPadding.x;
+  std::array<float, std::size(kWidths)> places{};
+  float x = 0.0f;
+  int rows = 1;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (x > 0.0f && x + em(kWidths[i] - 1.0f) > room) x = 0.0f, ++rows;
+    places[i] = x;
     x += em(kWidths[i]);
+  }
+  const float cell = 2 * ImGui::GetTextLineHeightWithSpacing();
+  begin_panel("standing",
+              {0, static_cast<float>(rows) * cell + ImGui::GetFrameHeight() + 2 * style.WindowPadding.y});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (places[i] > 0.0f) ImGui::SameLine(style.WindowPadding.x + places[i]);
+    figure_cell(cells[i].first, cells[i].second);
   }
   progress_bar("Progress", std::min(1.0, static_cast<double>(state.proposals) / budget),
                any ? fmt::format("{} of {} proposals", short_number(static_cast<double>(state.proposals)),

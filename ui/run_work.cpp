@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "ui/app.h"
@@ -53,8 +54,9 @@ void RunView::make_preview(App& app) {
             // An annealing that makes no step knows the temperatures that it would have.
             const AnnealResult result = Annealing(problem, options, execution).result();
             const TemperatureRange range{result.start_temperature, result.end_temperature};
-            return Preview{range, make_schedule(options.schedule, range.start, range.end, options.proposals),
-                           options.proposals};
+            // As the annealer plans it: the last 64th of the budget is spent at temperature 0.
+            const std::int64_t cooled = std::max<std::int64_t>(1, options.proposals - options.proposals / 64);
+            return Preview{range, make_schedule(options.schedule, range.start, range.end, cooled), cooled};
           },
           1);
     }
