@@ -6,6 +6,17 @@
 #include "ui/theme.h"
 
 namespace bn::ui {
+namespace {
+
+void write_screenshot(const std::filesystem::path& path, Surface& surface) {
+  Metadata metadata;
+  metadata.algorithm = "screenshot";
+  metadata.algorithm_version = 1;
+  metadata.kind = "screenshot";
+  write_image(path, surface.pixels(), metadata);
+}
+
+}  // namespace
 
 ImGuiSession::ImGuiSession() {
   ImGui::CreateContext();
@@ -28,18 +39,18 @@ void run_loop(App& app, Surface& surface, Script* script) {
     ImGui::Render();
     items::next_frame();
     if (script != nullptr && script->is_random()) app.quit = false;
-    surface.end_frame(app);
-    if (app.screenshot_path.empty()) continue;
-    try {
-      Metadata metadata;
-      metadata.algorithm = "screenshot";
-      metadata.algorithm_version = 1;
-      metadata.kind = "screenshot";
-      write_image(std::exchange(app.screenshot_path, {}), surface.pixels(), metadata);
-    } catch (const Error& error) {
-      if (script != nullptr) throw;
-      app.report(error);
+    surface.draw();
+    if (script != nullptr) {
+      if (const auto path = script->take_screenshot(); !path.empty()) write_screenshot(path, surface);
     }
+    if (!app.screenshot_path.empty()) {
+      try {
+        write_screenshot(std::exchange(app.screenshot_path, {}), surface);
+      } catch (...) {
+        app.report_in_flight();
+      }
+    }
+    surface.present();
   }
 }
 

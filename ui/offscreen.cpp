@@ -56,14 +56,15 @@ class Offscreen final : public Surface {
     return true;
   }
 
-  void end_frame(App&) override {
+  void draw() override {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
     glViewport(0, 0, size_.width, size_.height);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    glFinish();  // a frame counts when it is drawn
   }
+
+  void present() override { glFinish(); }  // a frame counts when it is drawn
 
   void upload_fonts() override {
     if (!std::exchange(begun_, true)) return;  // the first frame makes all textures

@@ -201,6 +201,8 @@ bool Script::before_frame(App& app) {
       std::string found;
       if (holds(condition_, found)) {
         condition_.clear();
+        frames_to_wait_ = 2;  // what came up with it finds its place
+        continue;
       } else if (Clock::now() > deadline_) {
         fail(true, fmt::format("waited in vain for {}; it is: {}", fmt::join(condition_, " "), found),
              app.errors().empty() ? "" : "the window says: " + app.errors().back());
@@ -305,7 +307,7 @@ void Script::start(App& app, const Command& command) {
            fmt::format("expected {}; it is: {}", fmt::join(words.begin() + 1, words.end(), " "), found));
     }
   } else if (verb == "screenshot") {
-    app.screenshot_path = words[1];
+    screenshot_ = words[1];
     frames_to_wait_ = 1;
   } else if (verb == "resize") {
     ImGui::GetIO().DisplaySize = {static_cast<float>(std::clamp(number(1), 64.0, 8192.0)),

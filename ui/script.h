@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace bn::ui {
@@ -27,6 +28,9 @@ class Script {
   /// script has ended. Errors: verification_failed (an `expect` that does not hold, a wait that takes too
   /// long), invalid_input (no such item); each with its line.
   bool before_frame(App& app);
+
+  /// Where the frame that was just drawn is to be written; empty: nowhere.
+  std::filesystem::path take_screenshot() { return std::exchange(screenshot_, {}); }
 
   /// Random events go on; one of them may have asked to quit.
   bool is_random() const { return random_left_ > 0; }
@@ -68,6 +72,7 @@ class Script {
   int frames_to_wait_ = 0;
   std::vector<std::string> condition_;  ///< of a wait-for
   Clock::time_point deadline_{}, last_frame_{};
+  std::filesystem::path screenshot_;
   bool measuring_ = false;
   int random_left_ = 0;
   std::uint64_t random_seed_ = 0, random_draws_ = 0;

@@ -16,11 +16,13 @@ class Surface {
   virtual ~Surface() = default;
   /// Gathers input for one frame of `app`; false once the user wants to leave.
   virtual bool begin_frame(App& app) = 0;
-  /// Draws what ImGui has rendered.
-  virtual void end_frame(App& app) = 0;
+  /// Draws what ImGui has rendered ...
+  virtual void draw() = 0;
+  /// ... and brings it before the user's eyes.
+  virtual void present() = 0;
   /// After the fonts have changed.
   virtual void upload_fonts() = 0;
-  /// The frame drawn last, RGB.
+  /// What was drawn and not yet presented, RGB.
   virtual Image pixels() = 0;
   /// Dots an inch of the display over 96.
   virtual float display_scale() const = 0;

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "ui/app.h"
 #include "ui/gl.h"
@@ -58,6 +60,16 @@ class Window final : public Surface {
       self.dropped_.assign(paths, paths + count);
     });
     ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    // A key that is pressed and let go between two frames would be missed: its end waits for the next frame.
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int code, int action, int modifiers) {
+      auto& self = *static_cast<Window*>(glfwGetWindowUserPointer(window));
+      if (action == GLFW_RELEASE && self.pressed_.contains(key)) {
+        self.released_.push_back({key, code, modifiers});
+      } else {
+        if (action == GLFW_PRESS) self.pressed_.insert(key);
+        ImGui_ImplGlfw_KeyCallback(window, key, code, action, modifiers);
+      }
+    });
     ImGui_ImplOpenGL3_Init("#version 330 core");
   }
 
@@ -69,6 +81,11 @@ class Window final : public Surface {
   }
 
   bool begin_frame(App& app) override {
+    for (const auto& [key, code, modifiers] : released_) {
+      ImGui_ImplGlfw_KeyCallback(window_, key, code, GLFW_RELEASE, modifiers);
+    }
+    released_.clear();
+    pressed_.clear();
     if (app.busy() || lively_frames_ > 0) {
       glfwPollEvents();
       --lively_frames_;
@@ -85,14 +102,15 @@ class Window final : public Surface {
     return !glfwWindowShouldClose(window_);
   }
 
-  void end_frame(App&) override {
+  void draw() override {
     glfwGetFramebufferSize(window_, &size_.width, &size_.height);
     glViewport(0, 0, size_.width, size_.height);
     glClearColor(0, 0, 0, 1);
     glClear(GL_COLOR_BUFFER_BIT);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    glfwSwapBuffers(window_);
   }
+
+  void present() override { glfwSwapBuffers(window_); }
 
   void upload_fonts() override {
     if (!std::exchange(begun_, true)) return;  // the first frame makes all textures
@@ -101,7 +119,7 @@ class Window final : public Surface {
   }
 
   Image pixels() override {
-    glReadBuffer(GL_FRONT);
+    glReadBuffer(GL_BACK);
     return read_framebuffer(size_);
   }
 
@@ -117,6 +135,11 @@ class Window final : public Surface {
   bool begun_ = false;
   int lively_frames_ = 30;
   std::vector<std::string> dropped_;
+  struct Release {
+    int key, code, modifiers;
+  };
+  std::set<int> pressed_;          ///< since the last frame
+  std::vector<Release> released_;  ///< likewise
 };
 
 }  // namespace
