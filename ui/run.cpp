@@ -1,5 +1,7 @@
 #include "ui/run.h"
 
+#include <pthread.h>
+
 #include <new>
 #include <utility>
 
@@ -62,6 +64,7 @@ std::optional<AnnealResult> Run::result() const {
 }
 
 void Run::work(const std::stop_token& stop) {
+  pthread_setname_np(pthread_self(), "bn-run");  // for those who watch it, or give it a core of its own
   std::optional<ErrorInfo> error;
   try {
     anneal(stop);

@@ -35,7 +35,7 @@ constexpr const char* phase_name(Phase phase) {
 }
 
 std::string time_text(double seconds) {
-  if (seconds < 100.0) return fmt::format("{:.1f} s", seconds);
+  if (seconds < 100.0) return fmt::format("{:.2f} s", seconds);
   if (seconds < 6000.0)
     return fmt::format("{:.0f} min {:02.0f} s", std::floor(seconds / 60.0), std::fmod(seconds, 60.0));
   return fmt::format("{:.1f} h", seconds / 3600.0);
