@@ -59,6 +59,10 @@ screenshot shot.png
   EXPECT_EQ(decode_moves(tile.image), expected.tile.move);
   EXPECT_EQ(tile.metadata->tiles.at(0).energy, expected.tile.energy);
 
+  // What the file says of itself makes it again.
+  bake(parse_recipe(tile.metadata->recipe, "embedded", here / ""), {.out_dir = here / "again"});
+  EXPECT_EQ(read_image(here / "again/tile.png").metadata->pixel_hash, tile.metadata->pixel_hash);
+
   const Image shot = read_image(here / "shot.png").image;
   ASSERT_EQ(shot.size, (Extent{1280, 800}));
   EXPECT_GT(contrast(shot, {0.02, 0.08, 0.26, 0.9}), 10.0) << "the settings";
