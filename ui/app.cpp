@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "ui/keys.h"
+#include "ui/texture_file.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
@@ -90,6 +91,11 @@ void App::open(const std::filesystem::path& path) {
   }
 }
 
+void App::take(const std::filesystem::path& path) {
+  if (tab_ == Tab::run && has_image_name(path)) return run.open(path);
+  open(path);
+}
+
 void App::ask(std::string title, FileChooser::Want want, const std::filesystem::path& start,
               std::function<void(const std::filesystem::path&)> done) {
   chooser_.ask(std::move(title), want, start, std::move(done));
@@ -97,7 +103,7 @@ void App::ask(std::string title, FileChooser::Want want, const std::filesystem::
 
 void App::ask_open() {
   ask("Open a texture, a folder of slices or a recipe", FileChooser::Want::open, {},
-      [this](const std::filesystem::path& path) { open(path); });
+      [this](const std::filesystem::path& path) { take(path); });
 }
 
 void App::report(const Error& error) {

@@ -41,7 +41,9 @@ class App {
   /// A texture goes to the Texture view, a recipe (.toml) to the Bake view; `folder` of slices too.
   void open(const std::filesystem::path& path);
   void show(Tab tab) { wanted_tab_ = tab; }
-  /// Lets the user choose a file or folder, and opens it.
+  /// What is dropped or chosen: as open(), but an image goes to the Run view while that is shown.
+  void take(const std::filesystem::path& path);
+  /// Lets the user choose a file or folder, and takes it.
   void ask_open();
   /// Lets the user choose; `done` gets the path, unless they think better of it.
   void ask(std::string title, FileChooser::Want want, const std::filesystem::path& start,

@@ -181,7 +181,7 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
 }
 
 void ImageView::draw_range(const char* name, float height) {
-  if (empty() || !picture_.colours.empty() || picture_.values.empty()) return;
+  if (!has_range()) return;
   if (histogram_.empty()) {
     const std::vector<double> values(picture_.values.begin(), picture_.values.end());
     const float high = picture_.high > picture_.low ? picture_.high : picture_.low + 1.0f;

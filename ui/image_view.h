@@ -53,6 +53,7 @@ class ImageView {
   void set(Picture picture);
   void clear();
   bool empty() const { return picture_.size.area() == 0; }
+  bool has_range() const { return !empty() && picture_.colours.empty() && !picture_.values.empty(); }
   const Picture& picture() const { return picture_; }
 
   /// The picture with its title above and a line of values below; `name` is its item name for scripts. Drag

@@ -37,7 +37,7 @@ struct Curve {
   std::string name;
   ImU32 colour = 0;
   std::vector<double> x, y;
-  std::vector<double> band_low, band_high;  ///< not empty: the space between is shaded
+  std::vector<double> band_low = {}, band_high = {};  ///< not empty: the space between is shaded
   bool dashed = false;
   bool fits = true;  ///< whether the ranges of the axes take it in
 };

@@ -246,8 +246,10 @@ void Script::start(App& app, const Command& command) {
     return value;
   };
   frames_to_wait_ = 2;  // ImGui answers most input one or two frames later
-  if (verb == "open" || verb == "drop") {
+  if (verb == "open") {
     app.open(words[1]);
+  } else if (verb == "drop") {
+    app.take(words[1]);
   } else if (verb == "click" && words.size() == 3) {
     queue_click({static_cast<float>(number(1)), static_cast<float>(number(2))});
   } else if (verb == "click") {

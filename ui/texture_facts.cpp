@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "ui/app.h"
 #include "ui/texture_view.h"
 #include "ui/widgets.h"
 
@@ -49,11 +50,15 @@ std::vector<Row> rows_of(const FiguresOfMerit& f) {
 
 }  // namespace
 
-void TextureView::draw_facts() {
+void TextureView::draw_facts(App& app) {
   heading("File");
   value("Name", texture_->path.filename().string(), texture_->path.string());
   draw_verdict();
   draw_metadata();
+  if (texture_->images.size() == 1 && button("Anneal it", true, "Take this image to the Run view")) {
+    app.run.open(texture_->path);
+    app.show(Tab::run);
+  }
   draw_figures();
 }
 

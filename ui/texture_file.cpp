@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ui/run_pictures.h"
+
 namespace bn::ui {
 namespace {
 
@@ -133,7 +135,20 @@ Image slice(const TextureFile& texture, const AtlasCut& cut, int index) {
   return texture.images[static_cast<std::size_t>(index)];
 }
 
+bool holds_moves(const TextureFile& texture) {
+  return texture.metadata && texture.metadata->kind.starts_with("retarget-") && texture.metadata->radius &&
+         texture.images[0].type == SampleType::u8 && texture.images[0].channels >= 2;
+}
+
 Picture picture_of(const TextureFile& texture, const Section& section) {
+  if (section.moves && !section.xz && holds_moves(texture)) {
+    const Metadata& m = *texture.metadata;
+    const auto index = static_cast<std::size_t>(section.index);
+    RetargetOptions options{.radius = *m.radius};
+    if (index < m.tiles.size()) options.motion = m.tiles[index].motion;
+    if (m.reach == "euclidean") options.reach = Reach::euclidean;
+    return offset_picture(decode_moves(slice(texture, section.cut, section.index)), options);
+  }
   const Extent size = slice_size(texture, section.cut);
   const int depth = slice_count(texture, section.cut);
   const int all = std::min(texture.images[0].channels, 4);
@@ -177,11 +192,14 @@ TextureAnalysis analyse_texture(const TextureFile& texture, const AtlasCut& cut,
   }
   const Shape shape{size.width, size.height, depth};
   const Analysis analysis = analyse(stack.value, shape, stack.low, stack.high, execution);
-  TextureAnalysis result{.plane = analysis.power, .in_time = {}, .figures = analysis.figures};
+  TextureAnalysis result{
+      .plane = analysis.power, .in_time = {}, .radial = {}, .time = {}, .figures = analysis.figures};
   if (depth > 1) {
     result.plane = project(analysis.power, Projection::xy);
     result.in_time = project(analysis.power, Projection::xz);
+    result.time = radial_power(project(analysis.power, Projection::z));
   }
+  result.radial = radial_power(result.plane);
   return result;
 }
 

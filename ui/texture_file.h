@@ -52,17 +52,22 @@ Image slice(const TextureFile& texture, const AtlasCut& cut, int index);
 /// Which samples of a texture are shown.
 struct Section {
   AtlasCut cut;
-  int channel = -1;  ///< -1: all
-  bool xz = false;   ///< time downwards, at row `index`; else slice `index`
+  int channel = -1;    ///< -1: all
+  bool moves = false;  ///< of a retarget tile, as hues; channel is not used
+  bool xz = false;     ///< time downwards, at row `index`; else slice `index`
   int index = 0;
   friend bool operator==(const Section&, const Section&) = default;
 };
+/// Whether its samples are a retarget tile's moves.
+bool holds_moves(const TextureFile& texture);
 Picture picture_of(const TextureFile& texture, const Section& section);
 
 /// What is in one channel of the whole stack, or of one slice: spectrum and figures.
 struct TextureAnalysis {
   PowerSpectrum plane;    ///< of the slices, (kx, ky)
   PowerSpectrum in_time;  ///< (kx, kz); empty where there is one slice
+  RadialCurve radial;     ///< of `plane`
+  RadialCurve time;       ///< by frequency in time; empty where there is one slice
   FiguresOfMerit figures;
 };
 /// `index` < 0: the stack as a volume. Errors: as analyse().

@@ -43,14 +43,13 @@ Picture spectrum_picture(const PowerSpectrum& power) {
 void TextureView::open(const std::filesystem::path& path) {
   path_ = path;
   opened_.clear();
-  section_.cut = {};
-  section_.channel = -1;
-  slice_ = row_ = 0;
+  fresh_ = true;
 }
 
 void TextureView::parameters(Parameters& p) {
   p("texture.path", path_);
   p("texture.channel", section_.channel, -1, 3);
+  p("texture.moves", section_.moves);
   p("texture.xz", section_.xz);
   p("texture.slice", slice_, 0, 65535);
   p("texture.row", row_, 0, 65535);
@@ -65,7 +64,11 @@ void TextureView::parameters(Parameters& p) {
 void TextureView::take(std::shared_ptr<const TextureFile> texture) {
   // Settings of a session or of an undone step are kept where they fit.
   texture_ = std::move(texture);
-  if (section_.cut == AtlasCut{} || !fits(*texture_, section_.cut)) section_.cut = guess_cut(*texture_);
+  if (std::exchange(fresh_, false)) {
+    section_ = {.cut = guess_cut(*texture_), .moves = true};
+    slice_ = row_ = 0;
+  }
+  if (!fits(*texture_, section_.cut)) section_.cut = guess_cut(*texture_);
   stale_ = true;
   playing_ = false;
   analysed_ = {};
@@ -76,6 +79,11 @@ void TextureView::take(std::shared_ptr<const TextureFile> texture) {
   if (texture_->metadata) {
     verifying_.start([path = path_](const Execution& execution) { return verify_path(path, execution); }, 1);
   }
+}
+
+void TextureView::take_spectrum() {
+  const bool in_time = section_.xz && !analysis_->in_time.half.empty();
+  spectrum_.set(spectrum_picture(in_time ? analysis_->in_time : analysis_->plane));
 }
 
 void TextureView::update(App& app) {
@@ -94,6 +102,7 @@ void TextureView::update(App& app) {
     app.report_in_flight();
     path_ = texture_ ? texture_->path : std::filesystem::path();
     opened_ = path_;
+    fresh_ = false;
   }
   try {
     if (auto verdict = verifying_.poll()) verdict_ = std::move(*verdict);
@@ -103,8 +112,7 @@ void TextureView::update(App& app) {
   try {
     if (auto analysis = analysing_.poll()) {
       analysis_ = std::move(*analysis);
-      spectrum_.set(spectrum_picture(section_.xz && !analysis_->in_time.half.empty() ? analysis_->in_time
-                                                                                     : analysis_->plane));
+      take_spectrum();
     }
   } catch (...) {
     app.report_in_flight();
@@ -125,10 +133,7 @@ void TextureView::update(App& app) {
   section_.channel = std::min(section_.channel, texture_->images[0].channels - 1);
   section_.index = section_.xz ? row_ : slice_;
   if (stale_ || !(section_ == shown_)) {
-    if (shown_.xz != section_.xz && analysis_) {
-      spectrum_.set(spectrum_picture(section_.xz && !analysis_->in_time.half.empty() ? analysis_->in_time
-                                                                                     : analysis_->plane));
-    }
+    if (shown_.xz != section_.xz && analysis_) take_spectrum();
     picture_.set(picture_of(*texture_, section_));
     shown_ = section_;
     stale_ = false;
@@ -177,7 +182,7 @@ void TextureView::draw(App& app) {
     ImGui::SameLine();
   }
   begin_panel("facts", {0, 0});
-  draw_facts();
+  draw_facts(app);
   if (narrow) {
     heading("Spectrum");
     draw_spectrum({ImGui::GetContentRegionAvail().x, em(26)});
@@ -190,7 +195,7 @@ void TextureView::draw_picture(ImVec2 size) {
   draw_link_controls(link_);
   draw_section_controls();
   const float controls = ImGui::GetCursorPosY() - top;
-  const float range = em(3.2f);
+  const float range = picture_.has_range() ? em(3.2f) : 0.0f;
   picture_.draw("Picture", link_, {size.x, size.y - controls - range - ImGui::GetStyle().ItemSpacing.y});
   picture_.draw_range("Range", range);
 }
@@ -199,8 +204,15 @@ void TextureView::draw_section_controls() {
   set_label_width(0);
   const Image& first = texture_->images[0];
   if (first.channels > 1) {
-    int shown = section_.channel + 1;
-    if (choice("Channel", channel_words(first.channels), shown)) section_.channel = shown - 1;
+    // "Moves" comes first where there are any.
+    const bool moves = holds_moves(*texture_);
+    auto words = channel_words(first.channels);
+    if (moves) words.insert(words.begin(), "Moves");
+    int shown = moves && section_.moves ? 0 : section_.channel + (moves ? 2 : 1);
+    if (choice("Channel", words, shown)) {
+      section_.moves = moves && shown == 0;
+      if (!section_.moves) section_.channel = shown - (moves ? 2 : 1);
+    }
   }
   const int slices = slice_count(*texture_, section_.cut);
   if (slices > 1) {
@@ -229,6 +241,23 @@ void TextureView::draw_spectrum(ImVec2 size) {
   set_label_width(8);
   const float side = std::min(size.x, size.y * 0.55f);
   spectrum_.draw("Spectrum", spectrum_link_, {size.x, side});
+  if (analysis_) {
+    Figure figure{.title = "Power",
+                  .x = {.name = "cycles/pixel", .low = 0.0, .high = 0.71},
+                  .y = {.name = "power", .logarithmic = true}};
+    figure.curves.push_back({.name = "in space",
+                             .colour = palette().series[0],
+                             .x = analysis_->radial.frequency,
+                             .y = analysis_->radial.power});
+    if (!analysis_->time.power.empty()) {
+      figure.curves.push_back({.name = "in time",
+                               .colour = palette().series[1],
+                               .x = analysis_->time.frequency,
+                               .y = analysis_->time.power});
+    }
+    figure.levels.push_back({.name = "white", .colour = palette().dim_text, .y = 1.0});
+    plot_.draw("Radial power", figure, {size.x, std::max(em(10), size.y - side - em(5))}, plot_link_);
+  }
   if (analysing_.running()) note("Transforming …");
 }
 

@@ -9,6 +9,7 @@
 
 #include "bn/bake.h"
 #include "ui/image_view.h"
+#include "ui/plot.h"
 #include "ui/task.h"
 #include "ui/texture_file.h"
 
@@ -29,13 +30,14 @@ class TextureView {
   /// Takes up results of the tasks; starts what the settings ask for.
   void update(App& app);
   void update_analysis();
+  void take_spectrum();
   void take(std::shared_ptr<const TextureFile> texture);
 
   void draw_picture(ImVec2 size);
   void draw_section_controls();
   void draw_spectrum(ImVec2 size);
   // In texture_facts.cpp.
-  void draw_facts();
+  void draw_facts(App& app);
   void draw_verdict();
   void draw_metadata();
   void draw_tile_record();
@@ -51,6 +53,7 @@ class TextureView {
 
   std::shared_ptr<const TextureFile> texture_;
   std::filesystem::path opened_;  ///< the path that was last tried
+  bool fresh_ = false;            ///< opened by the user: its settings begin anew, not a session's
   Section shown_;
   bool stale_ = true;
   bool playing_ = false;
@@ -67,6 +70,8 @@ class TextureView {
 
   ImageView picture_, spectrum_;
   ViewLink link_, spectrum_link_;
+  Plot plot_;
+  PlotLink plot_link_;
   Task<std::shared_ptr<const TextureFile>> loading_;
   Task<TextureAnalysis> analysing_;
   Task<std::vector<VerifyItem>> verifying_;

@@ -69,7 +69,8 @@ void set_colours(ImGuiStyle& style, const Palette& p, bool dark) {
   c[ImGuiCol_Header] = mix(p.panel, p.accent, 0.28f);
   c[ImGuiCol_HeaderHovered] = mix(p.panel, p.accent, 0.20f);
   c[ImGuiCol_HeaderActive] = mix(p.panel, p.accent, 0.40f);
-  c[ImGuiCol_CheckMark] = c[ImGuiCol_SliderGrab] = colour(p.accent);
+  c[ImGuiCol_CheckMark] = colour(p.accent);
+  c[ImGuiCol_SliderGrab] = mix(p.frame, p.accent, 0.55f);  // values are read across it
   c[ImGuiCol_SliderGrabActive] = mix(p.accent, p.text, 0.3f);
   c[ImGuiCol_Tab] = colour(p.background);
   c[ImGuiCol_TabHovered] = hover;

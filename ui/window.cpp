@@ -95,7 +95,7 @@ class Window final : public Surface {
       // Input: ImGui takes a few frames to settle, and the next input is likely near.
       if (glfwGetTime() - before < kIdleSeconds) lively_frames_ = 30;
     }
-    for (const auto& path : dropped_) app.open(path);
+    for (const auto& path : dropped_) app.take(path);
     dropped_.clear();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
