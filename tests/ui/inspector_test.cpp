@@ -234,7 +234,7 @@ TEST(Inspector, IsReadableAtTwiceTheSizeInBothThemes) {
 TEST(Inspector, SurvivesRandomEvents) {
   const Workplace here;
   here.write_mask("mask.png", 32);
-  expect_success(here.script("resize 640 400\nopen mask.png\nrandom 400 1"));
+  expect_success(here.shell(BN_TESTS "/ui/random " BN_INSPECTOR " mask.png 200 1"));
 }
 
 }  // namespace
