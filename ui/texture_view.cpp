@@ -96,7 +96,7 @@ void TextureView::update(App& app) {
   try {
     if (auto texture = loading_.poll()) {
       take(std::move(*texture));
-      app.say(fmt::format("Opened {}", path_.string()));
+      app.say(fmt::format("Opened {}", path_.filename().string()));
     }
   } catch (...) {
     app.report_in_flight();
