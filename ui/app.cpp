@@ -36,7 +36,10 @@ constexpr std::pair<const char*, const char*> kHelp[] = {
 }  // namespace
 
 App::App(std::filesystem::path session) : session_(std::move(session)) {
-  if (!session_.empty()) restore(read_session(session_));
+  if (session_.empty()) return;
+  Settings settings = read_session(session_);
+  Parameters loading = Parameters::loading(settings);
+  parameters(loading);
 }
 
 void App::parameters(Parameters& p) {
@@ -45,34 +48,50 @@ void App::parameters(Parameters& p) {
   int tab = static_cast<int>(wanted_tab_.value_or(tab_));
   p("tab", tab, 0, static_cast<int>(std::size(kTabs)) - 1);
   if (p.loading()) show(static_cast<Tab>(tab));
+  view_parameters(p);
+}
+
+void App::view_parameters(Parameters& p) {
   run.parameters(p);
   compare.parameters(p);
   texture.parameters(p);
   bake.parameters(p);
 }
 
-Settings App::settings() {
+Settings App::undoable() {
   Settings settings;
   Parameters saving = Parameters::saving(settings);
-  parameters(saving);
+  view_parameters(saving);
   return settings;
 }
 
-void App::restore(Settings settings) {
+void App::go_to(Settings settings) {
+  for (const auto& [name, value] : undoable()) {
+    const auto wanted = settings.find(name);
+    if (wanted == settings.end() || wanted->second == value) continue;
+    if (name.starts_with("run.")) show(Tab::run);
+    if (name.starts_with("compare.")) show(Tab::compare);
+    if (name.starts_with("texture.")) show(Tab::texture);
+    if (name.starts_with("bake.")) show(Tab::bake);
+  }
   Parameters loading = Parameters::loading(settings);
-  parameters(loading);
+  view_parameters(loading);
 }
 
 void App::undo() {
-  if (history_.can_undo()) restore(history_.undo());
+  if (history_.can_undo()) go_to(history_.undo());
 }
 
 void App::redo() {
-  if (history_.can_redo()) restore(history_.redo());
+  if (history_.can_redo()) go_to(history_.redo());
 }
 
 void App::close() {
-  if (!session_.empty()) write_session(session_, settings());
+  if (session_.empty()) return;
+  Settings settings;
+  Parameters saving = Parameters::saving(settings);
+  parameters(saving);
+  write_session(session_, settings);
 }
 
 bool App::busy() const { return run.busy() || compare.busy() || texture.busy() || bake.busy(); }
@@ -145,7 +164,7 @@ void App::frame() {
   chooser_.draw();
   draw_help();
   ImGui::End();
-  if (!ImGui::IsAnyItemActive()) history_.note(settings());
+  if (!ImGui::IsAnyItemActive() && !texture.playing()) history_.note(undoable());
 }
 
 void App::handle_shortcuts() {

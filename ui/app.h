@@ -70,8 +70,10 @@ class App {
 
  private:
   void parameters(Parameters& p);
-  Settings settings();
-  void restore(Settings settings);
+  void view_parameters(Parameters& p);  ///< those that can be undone
+  Settings undoable();
+  /// Goes to `settings`, and to the view in which something changes.
+  void go_to(Settings settings);
   void draw_menu();
   void draw_tabs();
   void draw_errors(float height);

@@ -23,9 +23,9 @@ std::string number(float value) {
 
 }  // namespace
 
-void ViewLink::parameters(Parameters& p) {
-  p("view.nearest", nearest);
-  p("view.tiled", tiled);
+void ViewLink::parameters(Parameters& p, const std::string& view) {
+  p((view + ".nearest").c_str(), nearest);
+  p((view + ".tiled").c_str(), tiled);
 }
 
 void draw_link_controls(ViewLink& link) {
@@ -69,8 +69,9 @@ void ImageView::show_values() {
   const int channels = picture_.channels;
   for (int y = 0; y < shown.height; ++y) {
     for (int x = 0; x < shown.width; ++x) {
-      const std::size_t from = static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.size.width) +
-                               static_cast<std::size_t>(x);
+      const auto from_x = static_cast<std::size_t>(std::int64_t{x} * picture_.size.width / shown.width);
+      const auto from_y = static_cast<std::size_t>(std::int64_t{y} * picture_.size.height / shown.height);
+      const std::size_t from = from_y * static_cast<std::size_t>(picture_.size.width) + from_x;
       const std::size_t to =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(shown.width) + static_cast<std::size_t>(x);
       if (!picture_.colours.empty()) {

@@ -38,7 +38,8 @@ struct ViewLink {
   bool tiled = false;                 ///< 3 x 3 repetitions
   std::optional<Offset> cursor = {};  ///< texel under the mouse in any of the views, of the last frame
 
-  void parameters(Parameters& p);
+  /// `view` tells links apart: "texture".
+  void parameters(Parameters& p, const std::string& view);
   void fit() { zoom = 0.0, centre_x = centre_y = 0.5; }
 };
 
@@ -49,7 +50,7 @@ void draw_link_controls(ViewLink& link);
 class ImageView {
  public:
   /// Takes the picture. Same size as before: zoom and range stay. Cheap enough to call for every frame of a
-  /// 64² run; a picture whose sides pass GlTexture::kMaxSide is cut there.
+  /// 64² run; a picture whose sides pass GlTexture::kMaxSide is thinned out on the screen.
   void set(Picture picture);
   void clear();
   bool empty() const { return picture_.size.area() == 0; }

@@ -94,7 +94,7 @@ Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options)
 }
 
 void RunPictures::parameters(Parameters& p) {
-  link_.parameters(p);
+  link_.parameters(p, "run");
   p("run.spectrum_of", spectrum_of_, 0, 2);
 }
 

@@ -58,7 +58,7 @@ void TextureView::parameters(Parameters& p) {
   p("texture.whole_stack", whole_stack_);
   p("texture.thresholds", thresholds_, 0, 4);
   p("texture.fps", frames_per_second_, 1, 60);
-  link_.parameters(p);
+  link_.parameters(p, "texture");
 }
 
 void TextureView::take(std::shared_ptr<const TextureFile> texture) {

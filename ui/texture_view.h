@@ -24,6 +24,7 @@ class TextureView {
   void open(const std::filesystem::path& path);
   void draw(App& app);
   void parameters(Parameters& p);
+  bool playing() const { return playing_; }
   bool busy() const { return playing_ || loading_.running() || analysing_.running() || verifying_.running(); }
 
  private:
