@@ -9,6 +9,13 @@
 
 #include <algorithm>
 #include <map>
+#ifdef __SANITIZE_THREAD__
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+#endif
 
 namespace bn {
 namespace {
@@ -18,10 +25,35 @@ constexpr int kMostOversubscribed = 8;
 
 /// This thread's arena of exactly `threads` slots. Kept from call to call, since making one costs more
 /// than many a loop; one for each calling thread, so that nested loops never wait for each other's slots.
-tbb::task_arena& arena_of(int threads) {
+[[maybe_unused]] tbb::task_arena& arena_of(int threads) {
   thread_local std::map<int, tbb::task_arena> arenas;
   return arenas.try_emplace(threads, threads).first->second;
 }
+
+#ifdef __SANITIZE_THREAD__
+/// Debian's TBB is not built for the thread sanitizer, which cannot see its synchronisation and would
+/// report every loop. Under the sanitizer the indices are dealt to plain threads.
+void fork_and_join(int threads, std::int64_t count, const std::function<void(std::int64_t)>& body) {
+  std::atomic<std::int64_t> next = 0;
+  std::mutex mutex;
+  std::exception_ptr first_error;
+  const auto work = [&] {
+    try {
+      for (std::int64_t i = next++; i < count; i = next++) body(i);
+    } catch (...) {
+      next = count;
+      const std::lock_guard lock(mutex);
+      if (!first_error) first_error = std::current_exception();
+    }
+  };
+  {
+    std::vector<std::jthread> others;
+    for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, count); ++i) others.emplace_back(work);
+    work();
+  }
+  if (first_error) std::rethrow_exception(first_error);
+}
+#endif
 
 }  // namespace
 
@@ -60,6 +92,9 @@ void parallel_for(const Execution& execution, std::int64_t count,
     for (std::int64_t i = 0; i < count; ++i) body(i);
     return;
   }
+#ifdef __SANITIZE_THREAD__
+  fork_and_join(threads, count, body);
+#else
   // The process-wide limit lets the tests run more threads than the machine has cores, to show that
   // the number changes nothing. It is no higher than that: TBB may start a worker for every arena
   // that was ever made.
@@ -75,6 +110,7 @@ void parallel_for(const Execution& execution, std::int64_t count,
         },
         tbb::simple_partitioner());
   });
+#endif
 }
 
 ProgressMeter::ProgressMeter(const Execution& execution, std::uint64_t total)
