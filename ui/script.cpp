@@ -207,8 +207,8 @@ bool Script::before_frame(App& app) {
         fail(true, fmt::format("waited in vain for {}; it is: {}", fmt::join(condition_, " "), found),
              app.errors().empty() ? "" : "the window says: " + app.errors().back());
       } else {
-        // As a display would: what is waited for has the processor in between.
-        std::this_thread::sleep_until(last_frame_ + std::chrono::milliseconds(16));
+        // As a window does: what is waited for has the processor in between.
+        std::this_thread::sleep_for(std::chrono::milliseconds(16));
         last_frame_ = Clock::now();
         return true;
       }

@@ -18,7 +18,10 @@
 namespace bn::ui {
 namespace {
 
-constexpr double kIdleSeconds = 0.25;  // between frames in which nothing happens
+// Between frames without input: while nothing happens, and while something runs, whose processor drawing
+// shares.
+constexpr double kIdleSeconds = 0.25;
+constexpr double kBusySeconds = 1.0 / 60.0;
 
 std::string glfw_message() {
   const char* text = nullptr;
@@ -86,14 +89,14 @@ class Window final : public Surface {
     }
     released_.clear();
     pressed_.clear();
-    if (app.busy() || lively_frames_ > 0) {
+    if (lively_frames_ > 0) {
       glfwPollEvents();
       --lively_frames_;
     } else {
-      const double before = glfwGetTime();
-      glfwWaitEventsTimeout(kIdleSeconds);
+      const double before = glfwGetTime(), pause = app.busy() ? kBusySeconds : kIdleSeconds;
+      glfwWaitEventsTimeout(pause);
       // Input: ImGui takes a few frames to settle, and the next input is likely near.
-      if (glfwGetTime() - before < kIdleSeconds) lively_frames_ = 30;
+      if (glfwGetTime() - before < pause) lively_frames_ = 30;
     }
     for (const auto& path : dropped_) app.take(path);
     dropped_.clear();
