@@ -190,7 +190,7 @@ void ImageView::draw_range(const char* name, float height) {
         histogram(values, static_cast<double>(picture_.low), static_cast<double>(high), kHistogramBars);
   }
   ImGui::PushID(name);
-  const float width = ImGui::GetContentRegionAvail().x;
+  const float width = std::max(ImGui::GetContentRegionAvail().x, em(1));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("range", {width, height});
   items::record(name, fmt::format("{}..{}", number(low_), number(high_)));

@@ -301,7 +301,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   if (!is_sound(figure.y, y)) y = fitting.y;
 
   const ImVec2 corner = ImGui::GetCursorScreenPos();
-  const ImVec2 area{size.x, std::max(em(4), size.y - (corner.y - top.y))};
+  const ImVec2 area{std::max(em(4), size.x), std::max(em(4), size.y - (corner.y - top.y))};
   ImGui::InvisibleButton("area", area, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const auto curves = std::count_if(figure.curves.begin(), figure.curves.end(),
                                     [&](const Curve& curve) { return !hidden_.contains(curve.name); });
