@@ -18,7 +18,8 @@ namespace bn {
 namespace {
 
 VulkanDevice& device() {
-  static VulkanDevice device("lavapipe", true);
+  // Never closed: the driver stays loaded, so that what it keeps can be told by its name, above.
+  static VulkanDevice& device = *new VulkanDevice("lavapipe", true);
   return device;
 }
 
