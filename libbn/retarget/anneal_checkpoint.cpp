@@ -4,12 +4,13 @@
 #include <xxhash.h>
 
 #include <bit>
-#include <cstring>
+#include <type_traits>
 
 namespace bn {
 namespace {
 
-constexpr std::uint64_t kMagic = 0x313070636c6e6e61;  // "annlcp01"
+constexpr std::uint64_t kMagic = 0x323070636c6e6e61;     // "annlcp02"
+constexpr std::uint64_t kSetMagic = 0x3230736d6c6e6e61;  // "annlms02"
 
 [[noreturn]] void refuse(std::string what, std::string remedy) {
   throw Error({.code = ErrorCode::invalid_input,
@@ -85,6 +86,16 @@ Grid<Offset> take_placement(Reader& reader, const AnnealInstance& instance) {
   return placement;
 }
 
+template <class T>
+void put(std::string& bytes, const std::optional<T>& value) {
+  put(bytes, std::int64_t{value.has_value()});
+  if constexpr (std::is_floating_point_v<T>) {
+    put(bytes, value.value_or(0.0));
+  } else {
+    put(bytes, std::int64_t{value.value_or(0)});
+  }
+}
+
 void put(std::string& bytes, const CoolingSchedule& schedule) {
   put(bytes, static_cast<std::uint64_t>(schedule.index()));
   struct Put {
@@ -104,6 +115,30 @@ void put(std::string& bytes, const CoolingSchedule& schedule) {
     }
   };
   std::visit(Put{bytes}, schedule);
+}
+
+void put_hash(std::string& bytes) { put(bytes, std::uint64_t{XXH3_64bits(bytes.data(), bytes.size())}); }
+
+/// What follows the version, and precedes the hash, of bytes that are whole.
+Reader whole(std::string_view bytes, std::uint64_t magic) {
+  Reader header(bytes);
+  if (header.take() != magic)
+    refuse("it is not a checkpoint of such an annealing", "give the right file, or start afresh");
+  if (header.take_signed() != kAnnealVersion)
+    refuse("it is of another version of the algorithm", "start afresh");
+  constexpr std::size_t kLeast = 6 * 8;
+  if (bytes.size() < kLeast) refuse("it is cut short", "start afresh");
+  const std::string_view body = bytes.substr(0, bytes.size() - 8);
+  if (Reader(bytes.substr(body.size())).take() != XXH3_64bits(body.data(), body.size())) {
+    refuse("it is damaged or cut short", "start afresh");
+  }
+  return Reader(body.substr(16));
+}
+
+void expect_fingerprint(Reader& reader, std::uint64_t fingerprint) {
+  if (reader.take() == fingerprint) return;
+  refuse("it belongs to another problem or other options",
+         "give the options it was made with, or start afresh");
 }
 
 }  // namespace
@@ -129,6 +164,9 @@ std::uint64_t fingerprint_of(const AnnealProblem& problem, const AnnealOptions& 
   put(text, options.proposals);
   put(text, options.seed);
   text += options.schedule;
+  const ScheduleParameters& p = options.parameters;
+  put(text, p.factor), put(text, p.slope), put(text, p.hajek_c), put(text, p.stages);
+  put(text, p.accepted_per_stage), put(text, p.tried_per_stage), put(text, p.frozen_stages);
   if (options.custom) put(text, *options.custom);
   return XXH3_64bits(text.data(), text.size());
 }
@@ -138,6 +176,7 @@ std::string encode_checkpoint(std::uint64_t fingerprint, const RunRecord& record
   put(bytes, kMagic);
   put(bytes, std::int64_t{kAnnealVersion});
   put(bytes, fingerprint);
+  put(bytes, record.proposals);
   put(bytes, static_cast<std::uint64_t>(record.chains.size()));
   put(bytes, record.beats);
   for (const ChainRecord& chain : record.chains) {
@@ -145,29 +184,15 @@ std::string encode_checkpoint(std::uint64_t fingerprint, const RunRecord& record
     put(bytes, chain.now);
     put(bytes, chain.best);
   }
-  put(bytes, std::uint64_t{XXH3_64bits(bytes.data(), bytes.size())});
+  put_hash(bytes);
   return bytes;
 }
 
 RunRecord decode_checkpoint(std::string_view bytes, std::uint64_t fingerprint, std::size_t chains,
                             const AnnealInstance& instance) {
-  Reader header(bytes);
-  if (header.take() != kMagic)
-    refuse("it is not a checkpoint of annealing", "give the right file, or start afresh");
-  if (header.take_signed() != kAnnealVersion)
-    refuse("it is of another version of the algorithm", "start afresh");
-  if (header.take() != fingerprint) {
-    refuse("it belongs to another problem or other options",
-           "give the options it was made with, or start afresh");
-  }
-  if (bytes.size() < 48) refuse("it is cut short", "start afresh");
-  const std::string_view body = bytes.substr(0, bytes.size() - 8);
-  if (Reader(bytes.substr(bytes.size() - 8)).take() != XXH3_64bits(body.data(), body.size())) {
-    refuse("it is damaged or cut short", "start afresh");
-  }
-  Reader reader(body);
-  reader.take(24);
-  RunRecord record;
+  Reader reader = whole(bytes, kMagic);
+  expect_fingerprint(reader, fingerprint);
+  RunRecord record{.proposals = reader.take_signed(), .chains = {}};
   if (reader.take() != chains) refuse("it has another number of chains", "start afresh");
   record.beats = reader.take_signed();
   for (std::size_t c = 0; c < chains; ++c) {
@@ -181,6 +206,41 @@ RunRecord decode_checkpoint(std::string_view bytes, std::uint64_t fingerprint, s
   }
   if (!reader.empty()) refuse("it is too long", "start afresh");
   return record;
+}
+
+std::string encode_set_checkpoint(std::uint64_t fingerprint, std::int64_t proposals,
+                                  const std::vector<std::string>& variants) {
+  std::string bytes;
+  put(bytes, kSetMagic);
+  put(bytes, std::int64_t{kAnnealVersion});
+  put(bytes, fingerprint);
+  put(bytes, proposals);
+  put(bytes, static_cast<std::uint64_t>(variants.size()));
+  for (const std::string& variant : variants) {
+    put(bytes, static_cast<std::uint64_t>(variant.size()));
+    bytes += variant;
+  }
+  put_hash(bytes);
+  return bytes;
+}
+
+std::vector<std::string> decode_set_checkpoint(std::string_view bytes, std::uint64_t fingerprint,
+                                               std::size_t variants) {
+  Reader reader = whole(bytes, kSetMagic);
+  expect_fingerprint(reader, fingerprint);
+  reader.take();
+  if (reader.take() != variants) refuse("it has another number of motions", "start afresh");
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < variants; ++i) result.emplace_back(reader.take(reader.take()));
+  if (!reader.empty()) refuse("it is too long", "start afresh");
+  return result;
+}
+
+std::int64_t checkpoint_proposals(std::string_view checkpoint) {
+  const bool of_set = Reader(checkpoint).take() == kSetMagic;
+  Reader reader = whole(checkpoint, of_set ? kSetMagic : kMagic);
+  reader.take();
+  return reader.take_signed();
 }
 
 }  // namespace bn

@@ -1,9 +1,13 @@
 // The state of a run between two beats, as bytes: what a resumed run needs to make the same bytes as one
 // that was never stopped.
 //
-// Layout, all integers little-endian 64 bit: magic, version, fingerprint of problem and options, number of
-// chains, beats done; per chain the fields of ChainRecord, then its placements now and best, one signed byte
-// per axis and pixel; last an XXH3 of all before. Anything else is refused whole.
+// Layout, all integers little-endian 64 bit: magic, version, fingerprint of problem and options, budget,
+// number of chains, beats done; per chain the fields of ChainRecord, then its placements now and best, one
+// signed byte per axis and pixel; last an XXH3 of all before. Anything else is refused whole.
+//
+// A motion set's checkpoint holds those of its variants, the finished ones' too (they resume to their end
+// at once): another magic, version, fingerprint, budget, number of variants; of each its length, 0 if it has
+// not begun, and its bytes; XXH3.
 
 #pragma once
 
@@ -28,6 +32,7 @@ struct ChainRecord {
 };
 
 struct RunRecord {
+  std::int64_t proposals = 0;  ///< the budget of each chain
   std::int64_t beats = 0;
   std::vector<ChainRecord> chains;
 };
@@ -40,5 +45,12 @@ std::string encode_checkpoint(std::uint64_t fingerprint, const RunRecord& record
 /// Throws invalid_input for bytes that are cut short, changed, of another version, or of another run.
 RunRecord decode_checkpoint(std::string_view bytes, std::uint64_t fingerprint, std::size_t chains,
                             const AnnealInstance& instance);
+
+std::string encode_set_checkpoint(std::uint64_t fingerprint, std::int64_t proposals,
+                                  const std::vector<std::string>& variants);
+
+/// The variants' checkpoints; errors as of decode_checkpoint().
+std::vector<std::string> decode_set_checkpoint(std::string_view bytes, std::uint64_t fingerprint,
+                                               std::size_t variants);
 
 }  // namespace bn

@@ -6,17 +6,10 @@
 #include <cmath>
 
 #include "retarget/filtered_energy.h"
+#include "retarget/refuse.h"
 
 namespace bn {
 namespace {
-
-[[noreturn]] void refuse(std::string where, std::string what, std::string limit, std::string remedy = "") {
-  throw Error({.code = ErrorCode::invalid_input,
-               .what = std::move(what),
-               .where = std::move(where),
-               .limit = std::move(limit),
-               .remedy = std::move(remedy)});
-}
 
 /// Large moves are useful while hot, near ones throughout; 5/3 of the radius was the best compromise
 /// measured (docs/annealing.md).
@@ -56,12 +49,12 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
            fmt::format("sides of 1..{} pixels", kMaxSide));
   }
   if (swap_distance_px < 0 || swap_distance_px > 2 * options.radius) {
-    refuse("swap distance", fmt::format("{} pixels", swap_distance_px),
+    refuse("swap_distance", fmt::format("{} pixels", swap_distance_px),
            fmt::format("1..{}, twice the radius; 0 for the default", 2 * options.radius));
   }
   const bool filtered = residual_sigma_px != 0.0;
   if (filtered && !(residual_sigma_px >= 0.3 && residual_sigma_px <= 8.0)) {
-    refuse("residual sigma", fmt::format("{} pixels", residual_sigma_px),
+    refuse("residual_sigma", fmt::format("{} pixels", residual_sigma_px),
            "0 for no filter, or 0.3..8 pixels");
   }
   if (filtered && options.metric != Metric::l2) {
@@ -76,7 +69,7 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
     }
     constexpr int kMaxWeight = 1000;
     if (channel.weight < 1 || channel.weight > kMaxWeight) {
-      refuse("weight", fmt::format("{}", channel.weight), fmt::format("1..{}", kMaxWeight));
+      refuse("weights", fmt::format("{}", channel.weight), fmt::format("1..{}", kMaxWeight));
     }
     // Two pixels change, each between 0 and the largest cost; and the sum over channels stays in 2^62.
     const std::int64_t largest_cost = check_levels(channel.levels, options.metric) * channel.weight;

@@ -14,6 +14,8 @@
 #include "core/reproducible_math.h"
 #include "retarget/anneal_checkpoint.h"
 #include "retarget/anneal_engine.h"
+#include "retarget/anneal_options.h"
+#include "retarget/refuse.h"
 
 namespace bn {
 namespace {
@@ -22,148 +24,12 @@ using Clock = std::chrono::steady_clock;
 
 /// Stream of random numbers for exchanges between chains.
 constexpr std::uint32_t kExchangeStream = 0x5D000000u;
-/// The share of the budget spent at temperature 0 at the end.
-constexpr std::int64_t kQuenchShare = 64;
 constexpr std::int64_t kTracePoints = 512;
 /// A watched sweep takes some 30 times as long as another; one in this many stays below a hundredth.
 constexpr std::int64_t kSweepsPerWatchedOne = 4096;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-[[noreturn]] void refuse(std::string_view where, std::string what, std::string limit,
-                         std::string remedy = "") {
-  throw Error({.code = ErrorCode::invalid_input,
-               .what = std::move(what),
-               .where = std::string(where),
-               .limit = std::move(limit),
-               .remedy = std::move(remedy)});
-}
-
-/// What needs no instance to be checked.
-void check(const AnnealOptions& options) {
-  const bool tempering = options.chains.coupling == ChainOptions::Coupling::tempering;
-  constexpr int kMaxChains = 256;
-  const int least = tempering ? 2 : 1;
-  if (options.chains.count < least || options.chains.count > kMaxChains) {
-    refuse("chains", fmt::format("{}", options.chains.count), fmt::format("{}..{}", least, kMaxChains));
-  }
-  if (options.proposals < 1 || options.proposals > (std::int64_t{1} << 62)) {
-    refuse("budget", fmt::format("{} proposals", options.proposals), "1..2^62 proposals");
-  }
-  if (options.start.rule == StartTemperature::Rule::acceptance &&
-      !(options.start.value >= 0.001 && options.start.value <= 0.999)) {
-    refuse("initial acceptance", fmt::format("{}", options.start.value), "0.001..0.999");
-  }
-  if (options.start.rule == StartTemperature::Rule::given &&
-      !(options.start.value > 0.0 && std::isfinite(options.start.value))) {
-    refuse("start temperature", fmt::format("{}", options.start.value), "above 0, finite");
-  }
-  if (!(options.end_temperature >= 0.0 && std::isfinite(options.end_temperature))) {
-    refuse("end temperature", fmt::format("{}", options.end_temperature),
-           "above 0, at most the start; 0 for automatic");
-  }
-  if (!(options.checkpoint.interval_s >= 0.0 && options.checkpoint.interval_s <= 3600.0)) {
-    refuse("checkpoint interval", fmt::format("{} s", options.checkpoint.interval_s), "0..3600 s");
-  }
-  if (options.custom) {
-    check_schedule(*options.custom);
-    if (tempering)
-      refuse("schedule", "a custom one with tempering", "tempering keeps each chain's temperature");
-  } else {
-    make_schedule(options.schedule, 1.0, 1.0, 1);  // for the name's sake
-  }
-}
-
-/// The share of worsening swaps within reach that is accepted at `temperature` in a sweep from the identity.
-double acceptance_at(const AnnealInstance& instance, double temperature) {
-  const auto engine = make_engine(instance, 1, 0);
-  WorseningCounts counts;
-  // Small tiles need more than one sweep for a sample worth its name.
-  const auto sweeps = static_cast<int>(std::clamp<std::int64_t>(8192 / instance.size.area(), 1, 64));
-  engine->round(0, sweeps, temperature, {.threads = 1}, &counts);
-  std::int64_t tried = 0, accepted = 0;
-  for (std::size_t i = 0; i < counts.tried.size(); ++i) {
-    tried += counts.tried[i];
-    accepted += counts.accepted[i];
-  }
-  return tried == 0 ? 1.0 : static_cast<double>(accepted) / static_cast<double>(tried);
-}
-
-/// By bisection of the exponent; square roots and products of IEEE give the same bits everywhere.
-double temperature_for_acceptance(const AnnealInstance& instance, double wanted) {
-  double low = 0x1p-10, high = 0x1p62;
-  for (int i = 0; i < 24; ++i) {
-    const double middle = std::sqrt(low) * std::sqrt(high);
-    (acceptance_at(instance, middle) < wanted ? low : high) = middle;
-  }
-  return high;
-}
-
-/// The mean over pixels (at most 1024 of them, evenly spread) of the least cost a seed could have there.
-double mean_least_cost(const AnnealInstance& instance) {
-  const auto window = reach_rows(instance.size, instance.options);
-  const auto [width, height] = instance.size;
-  const std::int64_t pixels = instance.size.area(), samples = std::min<std::int64_t>(pixels, 1024);
-  std::int64_t sum = 0;
-  for (std::int64_t i = 0; i < samples; ++i) {
-    const std::int64_t w = pixels * i / samples;
-    std::int64_t least = kMaxAnnealEnergy;
-    for (const ReachRow& row : window) {
-      for (int x = row.x_low; x <= row.x_high; ++x) {
-        std::int64_t cost = 0;
-        for (std::size_t c = 0; c < instance.weight.size(); ++c) {
-          cost += instance.weight[c] *
-                  level_cost(instance.seed_level[c].torus(w % width - x, w / width - row.y),
-                             instance.landing_level[c][static_cast<std::size_t>(w)], instance.options.metric);
-        }
-        least = std::min(least, cost);
-      }
-    }
-    sum += least;
-  }
-  return std::max(0.5, static_cast<double>(sum) / static_cast<double>(samples));
-}
-
-TemperatureRange automatic_range(const AnnealInstance& instance) {
-  if (instance.residual_sigma_px > 0.0) {
-    const double start = temperature_for_acceptance(instance, 0.2);
-    return {start, start / 4000.0};
-  }
-  const double scale = mean_least_cost(instance);
-  return {6.0 * scale, 0.9 * scale};
-}
-
-TemperatureRange temperatures_of(const AnnealInstance& instance, const AnnealOptions& options) {
-  using Rule = StartTemperature::Rule;
-  const bool automatic_start = options.start.rule == Rule::automatic,
-             automatic_end = options.end_temperature == 0.0;
-  TemperatureRange range;
-  if (automatic_start || automatic_end) range = automatic_range(instance);
-  if (options.start.rule == Rule::given) range.start = options.start.value;
-  if (options.start.rule == Rule::acceptance)
-    range.start = temperature_for_acceptance(instance, options.start.value);
-  if (options.start.rule == Rule::everything) {
-    if (instance.residual_sigma_px > 0.0) {
-      refuse("start temperature", "accept everything with a filtered residual",
-             "automatic, given or an acceptance");
-    }
-    // A swap changes two costs.
-    range.start = static_cast<double>(std::max<std::int64_t>(1, instance.largest_change));
-  }
-  if (!automatic_end) range.end = options.end_temperature;
-  if (range.end > range.start) {
-    if (automatic_end) {
-      range.end = range.start;
-    } else if (automatic_start) {
-      range.start = range.end;
-    } else {
-      refuse("end temperature", fmt::format("{}", range.end),
-             fmt::format("at most {}, the start temperature", range.start));
-    }
-  }
-  return range;
 }
 
 /// One chain and how far it is.
@@ -247,6 +113,7 @@ class Run {
       progress.advance(made - reported);
       reported = made;
     }
+    save();
     progress.finish();
     return result();
   }
@@ -319,19 +186,33 @@ class Run {
     result.tile.start_energy = start_energy_;
     result.tile.energy = best->best_energy;
     result.tile.lower_bound = options_.lower_bound;
-    result.start_temperature = temperatures_.start;
-    result.end_temperature = temperatures_.end;
+    const TemperatureRange range = temperatures();
+    result.start_temperature = range.start;
+    result.end_temperature = range.end;
     return result;
   }
 
  private:
   bool tempering() const { return options_.chains.coupling == ChainOptions::Coupling::tempering; }
 
+  /// The temperatures of the run, also where a parameter led the schedule elsewhere than to the end asked
+  /// for.
+  TemperatureRange temperatures() const {
+    const ScheduleParameters& p = options_.parameters;
+    const bool led = p.factor || p.slope || p.hajek_c;
+    if (!led || tempering() || options_.custom || options_.schedule == "kirkpatrick") return temperatures_;
+    Cooling cooling(schedule(0));
+    TemperatureRange range;
+    range.start = cooling.temperature();
+    cooling.advance(cooled_, 0, 0);
+    range.end = cooling.temperature();
+    return range;
+  }
+
   /// Of chain c; chains of tempering hold the temperature of their place on the ladder.
   CoolingSchedule schedule(int c) const {
     if (tempering()) return ConstantCooling{ladder(c)};
-    if (options_.custom) return *options_.custom;
-    return make_schedule(options_.schedule, temperatures_.start, temperatures_.end, cooled_);
+    return schedule_of(options_, temperatures_, cooled_);
   }
   /// Geometric, chain 0 the coldest.
   double ladder(int place) const {
@@ -433,7 +314,7 @@ class Run {
 
   void save() const {
     if (!options_.checkpoint.save) return;
-    RunRecord record{.beats = beats_, .chains = {}};
+    RunRecord record{.proposals = options_.proposals, .beats = beats_, .chains = {}};
     for (const Chain& chain : chains_) {
       record.chains.push_back({.cooling = chain.cooling.progress(),
                                .round = chain.round,
@@ -496,7 +377,7 @@ std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& mov
 
 AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& options,
                              const Execution& execution, AnnealTrace* trace) {
-  check(options);
+  check_anneal_options(options);
   thread_count(execution);
   return Run(problem, options, execution, trace).run();
 }
@@ -512,7 +393,7 @@ struct Annealing::Held {
 
 Annealing::Annealing(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution,
                      AnnealTrace* trace) {
-  check(options);
+  check_anneal_options(options);
   thread_count(execution);
   held_ = std::make_unique<Held>(problem, options, execution, trace);
 }
@@ -527,57 +408,5 @@ void Annealing::sweep() {
 AnnealState Annealing::state() const { return held_->run.state(); }
 Grid<Offset> Annealing::move() const { return held_->run.move(); }
 AnnealResult Annealing::result() const { return held_->run.result(); }
-
-std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const AnnealOptions& options,
-                                            int range, const Execution& execution) {
-  constexpr int kMaxRange = 8;
-  if (range < 0 || range > kMaxRange)
-    refuse("motion range", fmt::format("{}", range), fmt::format("0..{}", kMaxRange));
-  check(options);
-  const int side = 2 * range + 1;
-  std::vector<AnnealResult> results(static_cast<std::size_t>(side * side));
-  ProgressMeter progress(execution, results.size());
-  parallel_for(execution, static_cast<std::int64_t>(results.size()), [&](std::int64_t i) {
-    AnnealProblem variant = problem;
-    variant.retarget.motion = {static_cast<int>(i) % side - range, static_cast<int>(i) / side - range};
-    AnnealOptions alone = options;
-    alone.chains = {};
-    alone.checkpoint = {};
-    const Execution inside{
-        .threads = 1, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
-    results[static_cast<std::size_t>(i)] = anneal_retarget(variant, alone, inside);
-    progress.advance(1);
-  });
-  progress.finish();
-  return results;
-}
-
-TemperatureRange automatic_temperatures(const AnnealProblem& problem) {
-  return automatic_range(AnnealInstance(problem, 0));
-}
-
-std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const AnnealOptions& options,
-                           const Execution& execution) {
-  if (!(seconds > 0.0 && seconds <= 1e6))
-    refuse("budget", fmt::format("{} s", seconds), "above 0, at most 1e6 s");
-  AnnealOptions trial = options;
-  trial.checkpoint = {};
-  const Execution inside{.threads = execution.threads,
-                         .stop = execution.stop,
-                         .memory_limit_bytes = execution.memory_limit_bytes};
-  trial.proposals = 1 << 14;
-  while (true) {
-    const auto start = Clock::now();
-    anneal_retarget(problem, trial, inside);
-    const double took = std::max(1e-6, seconds_since(start));
-    constexpr std::int64_t kMost = std::int64_t{1} << 50;
-    if (took >= seconds / 40.0 || trial.proposals >= kMost) {
-      return std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(static_cast<double>(trial.proposals) * (seconds / took)));
-    }
-    // Four times as long next, or what just reaches a fortieth.
-    trial.proposals *= static_cast<std::int64_t>(std::clamp(seconds / 40.0 / took, 2.0, 8.0));
-  }
-}
 
 }  // namespace bn

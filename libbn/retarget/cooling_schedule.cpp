@@ -11,24 +11,17 @@
 #include <cmath>
 
 #include "core/reproducible_math.h"
+#include "retarget/refuse.h"
 
 namespace bn {
 namespace {
 
-[[noreturn]] void refuse(std::string_view where, std::string what, std::string limit) {
-  throw Error({.code = ErrorCode::invalid_input,
-               .what = std::move(what),
-               .where = std::string(where),
-               .limit = std::move(limit),
-               .remedy = ""});
-}
-
 void require(bool in_range, std::string_view where, double value, std::string_view limit) {
-  if (!in_range) refuse(where, fmt::format("{}", value), std::string(limit));
+  if (!in_range) refuse(std::string(where), fmt::format("{}", value), std::string(limit));
 }
 
 void check_start(double start) {
-  require(start > 0.0 && std::isfinite(start), "start temperature", start, "above 0, finite");
+  require(start > 0.0 && std::isfinite(start), "start_temperature", start, "above 0, finite");
 }
 
 struct Check {
@@ -37,12 +30,12 @@ struct Check {
   }
   void operator()(const GreedyCooling&) const {}
   void operator()(const HajekCooling& s) const {
-    require(s.c > 0.0 && std::isfinite(s.c), "Hajek's c", s.c, "above 0, finite");
+    require(s.c > 0.0 && std::isfinite(s.c), "hajek_c", s.c, "above 0, finite");
   }
   void operator()(const LinearCooling& s) const {
     check_start(s.start);
     require(s.slope >= 0.0 && std::isfinite(s.slope), "slope", s.slope, "0 or above, finite");
-    require(s.end >= 0.0 && s.end <= s.start, "end temperature", s.end,
+    require(s.end >= 0.0 && s.end <= s.start, "end_temperature", s.end,
             fmt::format("0..{}, the start temperature", s.start));
   }
   void operator()(const ExponentialCooling& s) const {
@@ -56,18 +49,16 @@ struct Check {
   void operator()(const KirkpatrickCooling& s) const {
     check_start(s.start);
     require(s.factor > 0.0 && s.factor < 1.0, "factor", s.factor, "above 0, below 1; above 1 would heat");
-    require(s.end >= 0.0 && s.end <= s.start, "end temperature", s.end,
+    require(s.end >= 0.0 && s.end <= s.start, "end_temperature", s.end,
             fmt::format("0..{}, the start temperature", s.start));
     if (s.accepted_per_stage < 1)
-      refuse("accepted swaps a stage", fmt::format("{}", s.accepted_per_stage), "at least 1");
-    if (s.tried_per_stage < 1)
-      refuse("tried swaps a stage", fmt::format("{}", s.tried_per_stage), "at least 1");
+      refuse("accepted_per_stage", fmt::format("{}", s.accepted_per_stage), "at least 1");
+    if (s.tried_per_stage < 1) refuse("tried_per_stage", fmt::format("{}", s.tried_per_stage), "at least 1");
     if (s.stages > 0 && s.tried_per_stage > (std::int64_t{1} << 62) / s.stages) {
-      refuse("tried swaps a stage", fmt::format("{} in {} stages", s.tried_per_stage, s.stages),
-             "2^62 in all");
+      refuse("tried_per_stage", fmt::format("{} in {} stages", s.tried_per_stage, s.stages), "2^62 in all");
     }
     if (s.stages < 0 || s.stages > 1'000'000) refuse("stages", fmt::format("{}", s.stages), "0..1000000");
-    if (s.frozen_stages < 1) refuse("frozen stages", fmt::format("{}", s.frozen_stages), "at least 1");
+    if (s.frozen_stages < 1) refuse("frozen_stages", fmt::format("{}", s.frozen_stages), "at least 1");
   }
 };
 
@@ -102,43 +93,86 @@ std::string_view name_of(const CoolingSchedule& schedule) { return std::visit(Na
 
 void check_schedule(const CoolingSchedule& schedule) { std::visit(Check{}, schedule); }
 
-CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals) {
+namespace {
+
+/// Parameters belong to their schedules and have their ranges.
+void check_parameters(std::string_view name, const ScheduleParameters& p) {
+  const auto belongs = [&](bool given, const char* where, std::initializer_list<std::string_view> schedules) {
+    if (!given || std::find(schedules.begin(), schedules.end(), name) != schedules.end()) return;
+    refuse(where, fmt::format("given with the schedule '{}'", name),
+           fmt::format("only with {}", fmt::join(schedules, ", ")));
+  };
+  belongs(p.factor.has_value(), "factor", {"exponential", "inverse", "kirkpatrick"});
+  belongs(p.slope.has_value(), "slope", {"linear"});
+  belongs(p.hajek_c.has_value(), "hajek_c", {"hajek"});
+  belongs(p.stages.has_value(), "stages", {"kirkpatrick"});
+  belongs(p.accepted_per_stage.has_value(), "accepted_per_stage", {"kirkpatrick"});
+  belongs(p.tried_per_stage.has_value(), "tried_per_stage", {"kirkpatrick"});
+  belongs(p.frozen_stages.has_value(), "frozen_stages", {"kirkpatrick"});
+  // An inverse schedule could have more than 1, and would be cold after its first step.
+  if (p.factor) require(*p.factor > 0.0 && *p.factor <= 1.0, "factor", *p.factor, "above 0, at most 1");
+  if (p.stages && *p.stages < 1) refuse("stages", fmt::format("{}", *p.stages), "1..1000000");
+}
+
+KirkpatrickCooling kirkpatrick(double start, double end, std::int64_t proposals,
+                               const ScheduleParameters& p) {
+  constexpr int kStages = 100;
+  KirkpatrickCooling schedule{.start = start, .end = end};
+  schedule.stages = p.stages.value_or(p.tried_per_stage ? 0 : kStages);
+  schedule.tried_per_stage =
+      p.tried_per_stage.value_or(std::max<std::int64_t>(1, proposals / std::max(1, schedule.stages)));
+  schedule.accepted_per_stage = p.accepted_per_stage.value_or(schedule.tried_per_stage / 500 + 1);
+  schedule.frozen_stages = p.frozen_stages.value_or(3);
+  const std::int64_t count =
+      schedule.stages > 0 ? schedule.stages : proposals / std::max<std::int64_t>(1, schedule.tried_per_stage);
+  // A run that does not cool at all still needs a factor below 1.
+  schedule.factor =
+      p.factor.value_or(std::min(reproducible_exp(reproducible_log(end / start) /
+                                                  static_cast<double>(std::max<std::int64_t>(1, count - 1))),
+                                 1.0 - 0x1p-40));
+  return schedule;
+}
+
+}  // namespace
+
+CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals,
+                              const ScheduleParameters& parameters) {
   const auto names = schedule_names();
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     refuse("schedule", fmt::format("unknown schedule '{}'", name), fmt::format("{}", fmt::join(names, ", ")));
   }
+  check_parameters(name, parameters);
   check_start(start);
-  require(end >= 0.0 && end <= start, "end temperature", end,
+  require(end >= 0.0 && end <= start, "end_temperature", end,
           fmt::format("0..{}, the start temperature", start));
   if (end == 0.0 &&
       (name == "exponential" || name == "inverse" || name == "hajek" || name == "kirkpatrick")) {
-    refuse("end temperature", fmt::format("0 with the schedule '{}'", name),
+    refuse("end_temperature", fmt::format("0 with the schedule '{}'", name),
            "above 0, as this schedule never reaches 0");
   }
   if (proposals < 1 || proposals > (std::int64_t{1} << 62)) {
-    refuse("budget", fmt::format("{} proposals", proposals), "1..2^62 proposals");
+    refuse("proposals", fmt::format("a budget of {}", proposals), "1..2^62 proposals");
   }
 
   const auto steps = static_cast<double>(proposals);
-  if (name == "exponential")
-    return ExponentialCooling{start, reproducible_exp(reproducible_log(end / start) / steps)};
-  if (name == "linear") return LinearCooling{start, (start - end) / steps, end};
-  if (name == "inverse") return InverseCooling{start, (start / end - 1.0) / steps};
-  if (name == "hajek") return HajekCooling{end * reproducible_log(steps + 2.0)};
-  if (name == "constant") return ConstantCooling{end};
-  if (name == "greedy") return GreedyCooling{};
-  constexpr int kStages = 100;
-  const std::int64_t share = std::max<std::int64_t>(1, proposals / kStages);
-  // A run that does not cool at all still needs a factor below 1.
-  const double factor =
-      std::min(reproducible_exp(reproducible_log(end / start) / (kStages - 1)), 1.0 - 0x1p-40);
-  return KirkpatrickCooling{.start = start,
-                            .factor = factor,
-                            .accepted_per_stage = share / 500 + 1,
-                            .tried_per_stage = share,
-                            .frozen_stages = 3,
-                            .end = end,
-                            .stages = kStages};
+  const ScheduleParameters& p = parameters;
+  CoolingSchedule schedule = GreedyCooling{};
+  if (name == "exponential") {
+    schedule =
+        ExponentialCooling{start, p.factor.value_or(reproducible_exp(reproducible_log(end / start) / steps))};
+  } else if (name == "linear") {
+    schedule = LinearCooling{start, p.slope.value_or((start - end) / steps), end};
+  } else if (name == "inverse") {
+    schedule = InverseCooling{start, p.factor.value_or((start / end - 1.0) / steps)};
+  } else if (name == "hajek") {
+    schedule = HajekCooling{p.hajek_c.value_or(end * reproducible_log(steps + 2.0))};
+  } else if (name == "constant") {
+    schedule = ConstantCooling{end};
+  } else if (name == "kirkpatrick") {
+    schedule = kirkpatrick(start, end, proposals, p);
+  }
+  check_schedule(schedule);
+  return schedule;
 }
 
 Cooling::Cooling(const CoolingSchedule& schedule) : schedule_(schedule) { check_schedule(schedule_); }

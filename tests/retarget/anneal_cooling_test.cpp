@@ -113,14 +113,14 @@ TEST(Cooling, BadParametersAreNamed) {
   };
   EXPECT_NE(names(ExponentialCooling{1.0, 1.5}).find("factor"), std::string::npos);
   EXPECT_NE(names(ExponentialCooling{1.0, 0.0}).find("factor"), std::string::npos);
-  EXPECT_NE(names(ExponentialCooling{0.0, 0.5}).find("start temperature"), std::string::npos);
+  EXPECT_NE(names(ExponentialCooling{0.0, 0.5}).find("start_temperature"), std::string::npos);
   EXPECT_NE(names(KirkpatrickCooling{.factor = 1.0}).find("factor"), std::string::npos);
   EXPECT_NE(names(KirkpatrickCooling{.accepted_per_stage = 0}).find("accepted"), std::string::npos);
-  EXPECT_NE(names(LinearCooling{1.0, 0.0, 2.0}).find("end temperature"), std::string::npos);
+  EXPECT_NE(names(LinearCooling{1.0, 0.0, 2.0}).find("end_temperature"), std::string::npos);
   EXPECT_NE(names(LinearCooling{1.0, -1.0, 0.0}).find("slope"), std::string::npos);
   EXPECT_NE(names(InverseCooling{1.0, -1.0}).find("factor"), std::string::npos);
-  EXPECT_NE(names(HajekCooling{0.0}).find("Hajek"), std::string::npos);
-  EXPECT_NE(names(HajekCooling{std::nan("")}).find("Hajek"), std::string::npos);
+  EXPECT_NE(names(HajekCooling{0.0}).find("hajek_c"), std::string::npos);
+  EXPECT_NE(names(HajekCooling{std::nan("")}).find("hajek_c"), std::string::npos);
   EXPECT_NE(names(ConstantCooling{-1.0}).find("temperature"), std::string::npos);
   EXPECT_NO_THROW(check_schedule(ConstantCooling{kInfinity}));
 
@@ -128,9 +128,49 @@ TEST(Cooling, BadParametersAreNamed) {
     return message_of([&] { make_schedule(name, start, end, proposals); });
   };
   EXPECT_NE(make("warp", 1.0, 0.5, 10).find("unknown schedule 'warp'"), std::string::npos);
-  EXPECT_NE(make("linear", 1.0, 2.0, 10).find("end temperature"), std::string::npos);
-  EXPECT_NE(make("exponential", 1.0, 0.0, 10).find("end temperature"), std::string::npos);
+  EXPECT_NE(make("linear", 1.0, 2.0, 10).find("end_temperature"), std::string::npos);
+  EXPECT_NE(make("exponential", 1.0, 0.0, 10).find("end_temperature"), std::string::npos);
   EXPECT_NE(make("exponential", 1.0, 0.5, 0).find("budget"), std::string::npos);
+}
+
+TEST(Cooling, ParametersAreUsedOrRefused) {
+  const auto made = [](std::string_view name, const ScheduleParameters& parameters) {
+    return make_schedule(name, 8.0, 0.5, 1'000'000, parameters);
+  };
+  EXPECT_EQ(std::get<ExponentialCooling>(made("exponential", {.factor = 0.75})).factor, 0.75);
+  EXPECT_EQ(std::get<ExponentialCooling>(made("exponential", {.factor = 1.0})).factor, 1.0);
+  EXPECT_EQ(std::get<InverseCooling>(made("inverse", {.factor = 0.25})).factor, 0.25);
+  EXPECT_EQ(std::get<LinearCooling>(made("linear", {.slope = 1e-4})).slope, 1e-4);
+  EXPECT_EQ(std::get<HajekCooling>(made("hajek", {.hajek_c = 3.0})).c, 3.0);
+  const auto shared = std::get<KirkpatrickCooling>(made("kirkpatrick", {.factor = 0.5, .stages = 10}));
+  EXPECT_EQ(shared.factor, 0.5);
+  EXPECT_EQ(shared.stages, 10);
+  EXPECT_EQ(shared.tried_per_stage, 100'000);
+  const auto own = std::get<KirkpatrickCooling>(
+      made("kirkpatrick", {.accepted_per_stage = 7, .tried_per_stage = 5000, .frozen_stages = 4}));
+  EXPECT_EQ(own.stages, 0);
+  EXPECT_EQ(own.tried_per_stage, 5000);
+  EXPECT_EQ(own.accepted_per_stage, 7);
+  EXPECT_EQ(own.frozen_stages, 4);
+  EXPECT_NEAR(own.at_stage(199), 0.5, 1e-9) << "200 stages fit the budget";
+
+  const auto names = [&](std::string_view name, const ScheduleParameters& parameters) {
+    return message_of([&] { made(name, parameters); });
+  };
+  for (const auto name : {"exponential", "inverse", "kirkpatrick"}) {
+    for (const double bad : {0.0, -0.5, 1.5, std::nan(""), kInfinity})
+      EXPECT_NE(names(name, {.factor = bad}).find("factor"), std::string::npos) << name << bad;
+  }
+  EXPECT_NE(names("kirkpatrick", {.factor = 1.0}).find("factor"), std::string::npos);
+  EXPECT_NE(names("linear", {.factor = 0.5}).find("factor: given with the schedule 'linear'"),
+            std::string::npos);
+  EXPECT_NE(names("linear", {.slope = -1.0}).find("slope"), std::string::npos);
+  EXPECT_NE(names("hajek", {.hajek_c = 0.0}).find("hajek_c"), std::string::npos);
+  EXPECT_NE(names("kirkpatrick", {.stages = 0}).find("stages"), std::string::npos);
+  EXPECT_NE(names("kirkpatrick", {.accepted_per_stage = 0}).find("accepted_per_stage"), std::string::npos);
+  EXPECT_NE(names("kirkpatrick", {.tried_per_stage = 0}).find("tried_per_stage"), std::string::npos);
+  EXPECT_NE(names("kirkpatrick", {.frozen_stages = 0}).find("frozen_stages"), std::string::npos);
+  EXPECT_NE(names("greedy", {.stages = 5}).find("stages"), std::string::npos);
 }
 
 /// The chance of standing in the global minimum of a line of states after `steps` of annealing, by exact

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 #include "bn/anneal.h"
@@ -192,20 +193,27 @@ TEST(Anneal, BadOptionsAreNamed) {
               o.chains = {1, ChainOptions::Coupling::tempering};
             }).find("chains"),
             std::string::npos);
-  EXPECT_NE(names([](auto& o) { o.swap_distance_px = 13; }).find("swap distance"), std::string::npos);
+  EXPECT_NE(names([](auto& o) { o.swap_distance_px = 13; }).find("swap_distance"), std::string::npos);
   EXPECT_NE(names([](auto& o) {
               o.custom = ExponentialCooling{1.0, 1.1};
             }).find("factor"),
             std::string::npos);
+  EXPECT_NE(names([](auto& o) { o.parameters.factor = 1.1; }).find("factor"), std::string::npos);
+  EXPECT_NE(names([](auto& o) { o.parameters.slope = 1.0; }).find("slope"), std::string::npos);
+  EXPECT_NE(names([](auto& o) {
+              o.parameters.factor = 0.9;
+              o.end_temperature = 0.1;
+            }).find("end_temperature"),
+            std::string::npos);
   EXPECT_NE(names([](auto& o) { o.checkpoint.interval_s = -1.0; }).find("interval"), std::string::npos);
   EXPECT_NE(names([](auto& o) {
               o.start = {StartTemperature::Rule::acceptance, 1.5};
-            }).find("acceptance"),
+            }).find("initial_acceptance"),
             std::string::npos);
   EXPECT_NE(names([](auto& o) {
               o.start = {StartTemperature::Rule::given, 1.0};
               o.end_temperature = 2.0;
-            }).find("end temperature"),
+            }).find("end_temperature"),
             std::string::npos);
 
   AnnealOptions options;
@@ -217,13 +225,13 @@ TEST(Anneal, BadOptionsAreNamed) {
   EXPECT_NE(message_of(bad, options).find("metric"), std::string::npos);
   bad.retarget.metric = Metric::l2;
   bad.residual_sigma_px = 99.0;
-  EXPECT_NE(message_of(bad, options).find("sigma"), std::string::npos);
+  EXPECT_NE(message_of(bad, options).find("residual_sigma"), std::string::npos);
   bad = problem;
   bad.channels.push_back({random_levels({8, 9}, 1, 5)});
   EXPECT_NE(message_of(bad, options).find("channels"), std::string::npos);
   bad = problem;
   bad.channels[0].weight = 0;
-  EXPECT_NE(message_of(bad, options).find("weight"), std::string::npos);
+  EXPECT_NE(message_of(bad, options).find("weights"), std::string::npos);
   bad = problem;
   bad.channels[0].levels[3] = 1 << 24;
   EXPECT_NE(message_of(bad, options).find("levels"), std::string::npos);
@@ -294,6 +302,92 @@ TEST(Anneal, TheMotionSetIsItsVariants) {
     const auto alone = anneal_retarget(variant, options);
     EXPECT_EQ(set[static_cast<std::size_t>(i)].tile.move, alone.tile.move);
     expect_true(variant, set[static_cast<std::size_t>(i)]);
+  }
+}
+
+TEST(Anneal, AParameterLeadsTheSchedule) {
+  const AnnealProblem problem = small_problem();
+  AnnealOptions options;
+  options.proposals = 1'000'000;
+  options.start = {StartTemperature::Rule::given, 4.0};
+  options.parameters.factor = 0.999999;
+  const auto result = anneal_retarget(problem, options);
+  expect_true(problem, result);
+  EXPECT_EQ(result.start_temperature, 4.0);
+  EXPECT_NEAR(result.end_temperature, 4.0 * std::exp(-0.984375), 1e-3) << "63/64 of the budget cool";
+  // Even where it underflows.
+  options.parameters.factor = 1e-3;
+  expect_true(problem, anneal_retarget(problem, options));
+}
+
+TEST(Anneal, AStoppedMotionSetGoesOn) {
+  const AnnealProblem problem = small_problem({20, 18});
+  AnnealOptions options;
+  options.proposals = 4'000'000;
+  options.chains.count = 2;
+  const auto whole = anneal_motion_set(problem, options, 1, {.threads = 2});
+  // Stopped again and again, as soon as there is something new, until it comes to its end.
+  std::string checkpoint;
+  options.checkpoint.interval_s = 0.0;
+  int stops = 0;
+  std::vector<AnnealResult> resumed;
+  while (resumed.empty() && stops < 2000) {
+    std::stop_source source;
+    int saves = 0;
+    options.checkpoint.save = [&](std::string_view bytes) {
+      checkpoint = bytes;
+      if (++saves == 15) source.request_stop();
+    };
+    options.checkpoint.resume = checkpoint;
+    try {
+      resumed = anneal_motion_set(problem, options, 1, {.threads = 2, .stop = source.get_token()});
+    } catch (const Error& error) {
+      ASSERT_EQ(error.code(), ErrorCode::cancelled) << error.what();
+      ++stops;
+    }
+  }
+  EXPECT_GT(stops, 10);
+  ASSERT_EQ(resumed.size(), whole.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(resumed[i].tile.move, whole[i].tile.move) << i;
+    EXPECT_EQ(resumed[i].tile.energy, whole[i].tile.energy);
+    EXPECT_EQ(resumed[i].proposals, whole[i].proposals);
+    EXPECT_EQ(resumed[i].accepted, whole[i].accepted);
+    EXPECT_EQ(resumed[i].end_temperature, whole[i].end_temperature);
+  }
+  EXPECT_EQ(checkpoint_proposals(checkpoint), options.proposals);
+
+  // The last checkpoint is of a finished set: going on from it has nothing left to do.
+  options.checkpoint.save = {};
+  options.checkpoint.resume = checkpoint;
+  EXPECT_EQ(anneal_motion_set(problem, options, 1)[4].tile.move, whole[4].tile.move);
+
+  const auto refused = [&](const AnnealProblem& of, const AnnealOptions& with, int range) {
+    try {
+      anneal_motion_set(of, with, range);
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_input);
+      EXPECT_NE(std::string(error.what()).find("checkpoint"), std::string::npos) << error.what();
+    }
+  };
+  refused(problem, options, 2);
+  AnnealOptions other = options;
+  other.seed = 9;
+  refused(problem, other, 1);
+  AnnealProblem moved = problem;
+  moved.retarget.step = {1, 2};
+  refused(moved, options, 1);
+  for (std::size_t length = 1; length < checkpoint.size(); length += length < 64 ? 1 : 997) {
+    other = options;
+    other.checkpoint.resume = checkpoint.substr(0, length);
+    refused(problem, other, 1);
+    EXPECT_THROW(checkpoint_proposals(other.checkpoint.resume), Error);
+  }
+  for (std::size_t at = 0; at < checkpoint.size(); at += 397) {
+    other = options;
+    other.checkpoint.resume[at] = static_cast<char>(checkpoint[at] ^ 16);
+    refused(problem, other, 1);
   }
 }
 

@@ -104,13 +104,29 @@ std::string_view name_of(const CoolingSchedule& schedule);
 /// Throws invalid_input, naming the parameter and its range, unless all are in range.
 void check_schedule(const CoolingSchedule& schedule);
 
+/// Parameters of schedules that a user may fix; those left empty follow from start, end and budget. The names
+/// are those of recipes and, with dashes, of flags.
+struct ScheduleParameters {
+  /// a of exponential (a step), inverse (a step) and kirkpatrick (a stage): above 0, at most 1; kirkpatrick
+  /// below 1. The first two then end where it leads them, not at `end`.
+  std::optional<double> factor = {};
+  std::optional<double> slope = {};    ///< mu of linear, >= 0
+  std::optional<double> hajek_c = {};  ///< c of hajek, above 0
+  /// Of kirkpatrick: as many stages share the proposals, 1..1000000.
+  std::optional<int> stages = {};
+  std::optional<std::int64_t> accepted_per_stage = {};  ///< of kirkpatrick, >= 1
+  std::optional<std::int64_t> tried_per_stage = {};  ///< of kirkpatrick, >= 1; without stages, of each alone
+  std::optional<int> frozen_stages = {};             ///< of kirkpatrick, >= 1
+};
+
 /// The schedule called `name` that starts at `start`, ends at `end` and spends `proposals`, so that
 /// schedules can be compared. Hajek's has one constant and cannot meet both: c = end * ln(proposals + 2),
 /// so it starts at about 1.44 c whatever `start` is; constant stays at `end`. Kirkpatrick's has 100 stages
 /// that share the proposals; a stage ends when as many swaps were accepted as 0.2 % of an equal share.
 /// Errors: invalid_input (unknown name, start not above 0, end not in 0..start, 0 where the formula
-/// cannot reach it, proposals not in 1..2^62).
-CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals);
+/// cannot reach it, proposals not in 1..2^62, a parameter out of its range or of another schedule).
+CoolingSchedule make_schedule(std::string_view name, double start, double end, std::int64_t proposals,
+                              const ScheduleParameters& parameters = {});
 
 /// Classes of worsenings in traces: class i holds rises of the energy by 2^i .. 2^(i+1) - 1, the last one
 /// all larger ones too.
@@ -204,8 +220,9 @@ class AnnealTrace {
 /// Stopping and going on. A checkpoint is taken between rounds, so a resumed run makes the same bytes as
 /// one that was never stopped.
 struct Checkpointing {
-  /// Called with an opaque checkpoint at most every `interval_s`, and once when a stop was requested;
-  /// from the calling thread. Write it crash-safely (bn/texture.h, write_text_file).
+  /// Called with an opaque checkpoint at most every `interval_s`, once when a stop was requested, and once
+  /// when the run is over; from the calling thread. Of a motion set: from any thread, never from two at once.
+  /// Write it crash-safely (bn/texture.h, write_text_file).
   std::function<void(std::string_view checkpoint)> save = {};
   /// Seconds between two, 0..3600; stretched up to 28 s where saving takes longer than a fiftieth of it. 0
   /// saves before every beat of the run, whatever it costs.
@@ -216,9 +233,10 @@ struct Checkpointing {
 
 struct AnnealOptions {
   std::string schedule = "exponential";  ///< one of schedule_names()
+  ScheduleParameters parameters = {};
   StartTemperature start = {};
   double end_temperature = 0.0;  ///< above 0, at most the start; 0: automatic
-  /// Where set, used as it is in place of schedule, start and end.
+  /// Where set, used as it is in place of schedule, parameters, start and end.
   std::optional<CoolingSchedule> custom = {};
   /// Budget of each chain, 1..2^62. A proposal is one pair of seeds, within reach or not. The last 64th is
   /// spent at temperature 0, whatever the schedule.
@@ -239,6 +257,10 @@ struct AnnealResult {
   double end_temperature = 0.0;
   bool frozen = false;  ///< the schedule ended the run before the budget did
 };
+
+/// Throws what anneal_retarget() would throw of these options for any problem; ErrorInfo::where is the name
+/// of the option in recipes.
+void check_anneal_options(const AnnealOptions& options);
 
 /// Anneals from the identity R = m.
 ///
@@ -297,10 +319,16 @@ class Annealing {
   std::unique_ptr<Held> held_;
 };
 
-/// The variants of one motion set: index (m.y + range) * (2 range + 1) + m.x + range, range 0..8; motion and
-/// chains of the arguments are ignored. Every tile equals anneal_retarget() with that motion.
+/// The variants of one motion set: index (m.y + range) * (2 range + 1) + m.x + range, range 0..8; the motion
+/// of the argument is ignored. Every tile equals anneal_retarget() with that motion. A checkpoint is of the
+/// whole set: a resumed set keeps the variants that were finished and goes on with the others where they
+/// were. Threads: over variants.
 std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const AnnealOptions& options,
                                             int range, const Execution& execution = {});
+
+/// The budget (AnnealOptions::proposals) of the run or motion set that a checkpoint is of, so that a budget
+/// once found by a clock can be kept. Throws invalid_input for bytes that are no whole checkpoint.
+std::int64_t checkpoint_proposals(std::string_view checkpoint);
 
 /// The temperatures an automatic start and end stand for. For sums over pixels, with c the mean over pixels
 /// of the least cost within reach (at least 1/2): start 6 c, end 0.9 c. For a residual, a start that accepts

@@ -1,0 +1,182 @@
+#include "retarget/anneal_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "retarget/anneal_engine.h"
+#include "retarget/refuse.h"
+
+namespace bn {
+namespace {
+
+/// The share of worsening swaps within reach that is accepted at `temperature` in a sweep from the identity.
+double acceptance_at(const AnnealInstance& instance, double temperature) {
+  const auto engine = make_engine(instance, 1, 0);
+  WorseningCounts counts;
+  // Small tiles need more than one sweep for a sample worth its name.
+  const auto sweeps = static_cast<int>(std::clamp<std::int64_t>(8192 / instance.size.area(), 1, 64));
+  engine->round(0, sweeps, temperature, {.threads = 1}, &counts);
+  std::int64_t tried = 0, accepted = 0;
+  for (std::size_t i = 0; i < counts.tried.size(); ++i) {
+    tried += counts.tried[i];
+    accepted += counts.accepted[i];
+  }
+  return tried == 0 ? 1.0 : static_cast<double>(accepted) / static_cast<double>(tried);
+}
+
+/// By bisection of the exponent; square roots and products of IEEE give the same bits everywhere.
+double temperature_for_acceptance(const AnnealInstance& instance, double wanted) {
+  double low = 0x1p-10, high = 0x1p62;
+  for (int i = 0; i < 24; ++i) {
+    const double middle = std::sqrt(low) * std::sqrt(high);
+    (acceptance_at(instance, middle) < wanted ? low : high) = middle;
+  }
+  return high;
+}
+
+/// The mean over pixels (at most 1024 of them, evenly spread) of the least cost a seed could have there.
+double mean_least_cost(const AnnealInstance& instance) {
+  const auto window = reach_rows(instance.size, instance.options);
+  const auto [width, height] = instance.size;
+  const std::int64_t pixels = instance.size.area(), samples = std::min<std::int64_t>(pixels, 1024);
+  std::int64_t sum = 0;
+  for (std::int64_t i = 0; i < samples; ++i) {
+    const std::int64_t w = pixels * i / samples;
+    std::int64_t least = kMaxAnnealEnergy;
+    for (const ReachRow& row : window) {
+      for (int x = row.x_low; x <= row.x_high; ++x) {
+        std::int64_t cost = 0;
+        for (std::size_t c = 0; c < instance.weight.size(); ++c) {
+          cost += instance.weight[c] *
+                  level_cost(instance.seed_level[c].torus(w % width - x, w / width - row.y),
+                             instance.landing_level[c][static_cast<std::size_t>(w)], instance.options.metric);
+        }
+        least = std::min(least, cost);
+      }
+    }
+    sum += least;
+  }
+  return std::max(0.5, static_cast<double>(sum) / static_cast<double>(samples));
+}
+
+TemperatureRange automatic_range(const AnnealInstance& instance) {
+  if (instance.residual_sigma_px > 0.0) {
+    const double start = temperature_for_acceptance(instance, 0.2);
+    return {start, start / 4000.0};
+  }
+  const double scale = mean_least_cost(instance);
+  return {6.0 * scale, 0.9 * scale};
+}
+
+}  // namespace
+
+void check_anneal_options(const AnnealOptions& options) {
+  const bool tempering = options.chains.coupling == ChainOptions::Coupling::tempering;
+  constexpr int kMaxChains = 256;
+  const int least = tempering ? 2 : 1;
+  if (options.chains.count < least || options.chains.count > kMaxChains) {
+    refuse("chains", fmt::format("{}", options.chains.count), fmt::format("{}..{}", least, kMaxChains));
+  }
+  if (options.proposals < 1 || options.proposals > (std::int64_t{1} << 62)) {
+    refuse("proposals", fmt::format("a budget of {}", options.proposals), "1..2^62 proposals");
+  }
+  if (options.start.rule == StartTemperature::Rule::acceptance &&
+      !(options.start.value >= 0.001 && options.start.value <= 0.999)) {
+    refuse("initial_acceptance", fmt::format("{}", options.start.value), "0.001..0.999");
+  }
+  if (options.start.rule == StartTemperature::Rule::given &&
+      !(options.start.value > 0.0 && std::isfinite(options.start.value))) {
+    refuse("start_temperature", fmt::format("{}", options.start.value), "above 0, finite");
+  }
+  if (!(options.end_temperature >= 0.0 && std::isfinite(options.end_temperature))) {
+    refuse("end_temperature", fmt::format("{}", options.end_temperature),
+           "above 0, at most the start; 0 for automatic");
+  }
+  if (!(options.checkpoint.interval_s >= 0.0 && options.checkpoint.interval_s <= 3600.0)) {
+    refuse("checkpoint interval", fmt::format("{} s", options.checkpoint.interval_s), "0..3600 s");
+  }
+  if (options.custom) {
+    check_schedule(*options.custom);
+    if (tempering)
+      refuse("schedule", "a custom one with tempering", "tempering keeps each chain's temperature");
+  } else {
+    make_schedule(options.schedule, 1.0, 1.0, 1, options.parameters);  // for names and parameters
+    const bool decided = options.schedule != "kirkpatrick" && options.parameters.factor;
+    if ((decided || options.parameters.hajek_c) && options.end_temperature > 0.0) {
+      refuse("end_temperature",
+             fmt::format("{} beside {}", options.end_temperature, decided ? "a factor" : "Hajek's constant"),
+             "one of the two, as each decides where the schedule ends");
+    }
+  }
+}
+
+CoolingSchedule schedule_of(const AnnealOptions& options, const TemperatureRange& range,
+                            std::int64_t proposals) {
+  if (options.custom) return *options.custom;
+  return make_schedule(options.schedule, range.start, range.end, proposals, options.parameters);
+}
+
+TemperatureRange temperatures_of(const AnnealInstance& instance, const AnnealOptions& options) {
+  using Rule = StartTemperature::Rule;
+  const bool automatic_start = options.start.rule == Rule::automatic,
+             automatic_end = options.end_temperature == 0.0;
+  TemperatureRange range;
+  if (automatic_start || automatic_end) range = automatic_range(instance);
+  if (options.start.rule == Rule::given) range.start = options.start.value;
+  if (options.start.rule == Rule::acceptance)
+    range.start = temperature_for_acceptance(instance, options.start.value);
+  if (options.start.rule == Rule::everything) {
+    if (instance.residual_sigma_px > 0.0) {
+      refuse("start_temperature", "accept everything with a filtered residual",
+             "automatic, given or an acceptance");
+    }
+    // A swap changes two costs.
+    range.start = static_cast<double>(std::max<std::int64_t>(1, instance.largest_change));
+  }
+  if (!automatic_end) range.end = options.end_temperature;
+  if (range.end > range.start) {
+    if (automatic_end) {
+      range.end = range.start;
+    } else if (automatic_start) {
+      range.start = range.end;
+    } else {
+      refuse("end_temperature", fmt::format("{}", range.end),
+             fmt::format("at most {}, the start temperature", range.start));
+    }
+  }
+  return range;
+}
+
+TemperatureRange automatic_temperatures(const AnnealProblem& problem) {
+  return automatic_range(AnnealInstance(problem, 0));
+}
+
+std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const AnnealOptions& options,
+                           const Execution& execution) {
+  if (!(seconds > 0.0 && seconds <= 1e6))
+    refuse("budget", fmt::format("{} s", seconds), "above 0, at most 1e6 s");
+  AnnealOptions trial = options;
+  trial.checkpoint = {};
+  const Execution inside{.threads = execution.threads,
+                         .stop = execution.stop,
+                         .memory_limit_bytes = execution.memory_limit_bytes};
+  trial.proposals = 1 << 14;
+  while (true) {
+    const auto start = std::chrono::steady_clock::now();
+    anneal_retarget(problem, trial, inside);
+    const double took =
+        std::max(1e-6, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    constexpr std::int64_t kMost = std::int64_t{1} << 50;
+    if (took >= seconds / 40.0 || trial.proposals >= kMost) {
+      return std::max<std::int64_t>(
+          1, static_cast<std::int64_t>(static_cast<double>(trial.proposals) * (seconds / took)));
+    }
+    // Four times as long next, or what just reaches a fortieth.
+    trial.proposals *= static_cast<std::int64_t>(std::clamp(seconds / 40.0 / took, 2.0, 8.0));
+  }
+}
+
+}  // namespace bn

@@ -1,0 +1,21 @@
+// The one way in which this room's annealing turns an option down: by name, with its range.
+
+#pragma once
+
+#include <string>
+
+#include "bn/core.h"
+
+namespace bn {
+
+/// Throws invalid_input. `where` is the option's name, as in recipes.
+[[noreturn]] inline void refuse(std::string where, std::string what, std::string limit,
+                                std::string remedy = "") {
+  throw Error({.code = ErrorCode::invalid_input,
+               .what = std::move(what),
+               .where = std::move(where),
+               .limit = std::move(limit),
+               .remedy = std::move(remedy)});
+}
+
+}  // namespace bn
