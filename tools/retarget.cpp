@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <type_traits>
 
 #include "tools/records.h"
 #include "tools/verb.h"
@@ -20,9 +21,12 @@ struct Budget {
 
 struct Settings {
   RetargetEntry entry;
-  AnnealMethod anneal;
   bool anneals = false;
+  AnnealMethod anneal;
+  std::vector<std::string> anneal_flags;  ///< those that were given
   Budget budget;
+  double start_temperature = 0.0;
+  double initial_acceptance = 0.0;
   std::filesystem::path trace;
   std::filesystem::path image;
   MoveForm form = MoveForm::scatter;
@@ -75,7 +79,8 @@ ValueKind<Budget> budget_value() {
 
 /// Any word, so that the library names the schedules that there are.
 ValueKind<std::string> schedule_value() {
-  ValueKind<std::string> kind{.placeholder = "NAME", .allowed = "", .parse = {}, .show = [](const std::string& s) { return s; }};
+  ValueKind<std::string> kind{
+      .placeholder = "NAME", .allowed = "", .parse = {}, .show = [](const std::string& s) { return s; }};
   for (const auto name : schedule_names()) kind.choices.emplace_back(name);
   kind.completion = Completion::choice;
   kind.parse = [](std::string_view text, std::string_view) {
@@ -85,32 +90,82 @@ ValueKind<std::string> schedule_value() {
   return kind;
 }
 
-/// The entry's annealing: its budget in proposals, its checkpoint beside the tile.
-AnnealMethod annealing(const Settings& settings, Session& session) {
+/// A number or none; its range is the library's to know, and to state in exit code 3.
+template <class T>
+ValueKind<std::optional<T>> optional_number(std::string allowed) {
+  return {.placeholder = std::is_integral_v<T> ? "N" : "NUMBER",
+          .allowed = allowed,
+          .parse = [=](std::string_view text, std::string_view where) -> std::optional<T> {
+            T value{};
+            const char* const end = text.data() + text.size();
+            const auto [rest, failed] = std::from_chars(text.data(), end, value);
+            if (!text.empty() && failed == std::errc() && rest == end) return value;
+            throw Error({.code = ErrorCode::usage,
+                         .what = fmt::format("'{}' is no number", text),
+                         .where = std::string(where),
+                         .limit = allowed,
+                         .remedy = ""});
+          },
+          .show = [](const std::optional<T>&) { return std::string(); }};
+}
+
+/// `kind`, noting under its name that it was given.
+template <class T>
+ValueKind<T> noted(ValueKind<T> kind, std::vector<std::string>& given) {
+  kind.parse = [parse = kind.parse, &given](std::string_view text, std::string_view where) {
+    given.emplace_back(where);
+    return parse(text, where);
+  };
+  return kind;
+}
+
+[[noreturn]] void refuse(std::string where, std::string what, std::string limit, std::string remedy) {
+  throw Error({.code = ErrorCode::invalid_input,
+               .what = std::move(what),
+               .where = std::move(where),
+               .limit = std::move(limit),
+               .remedy = std::move(remedy)});
+}
+
+/// The entry's annealing: its budget, its start, its checkpoint beside the tile.
+AnnealMethod annealing(const Settings& settings) {
   AnnealMethod method = settings.anneal;
   constexpr double kMostProposals = 0x1p62;
-  method.proposals = static_cast<std::int64_t>(std::min(settings.budget.proposals, kMostProposals));
-  if (settings.budget.seconds > 0.0) {
-    AnnealProblem problem;
-    problem.channels = {{levels_of_channel(read_image(settings.image, session.execution).image, settings.entry.channel).value}};
-    problem.retarget = settings.entry.options;
-    const Extent size = problem.channels[0].levels.size();
-    problem.retarget.step = settings.entry.step ? *settings.entry.step : auto_step(size).step;
-    AnnealOptions options;
-    options.schedule = method.schedule;
-    method.proposals = proposals_for(settings.budget.seconds, problem, options, session.execution);
-    session.progress.note(fmt::format("{} s are {} proposals here; give --budget {} for the same bytes again",
-                                      settings.budget.seconds, method.proposals, method.proposals));
+  method.options.proposals = static_cast<std::int64_t>(std::min(settings.budget.proposals, kMostProposals));
+  method.seconds = settings.budget.seconds;
+  if (method.seconds > 0.0) method.options.proposals = 1;  // until the clock has spoken
+  using Rule = StartTemperature::Rule;
+  if (settings.start_temperature > 0.0 && settings.initial_acceptance > 0.0) {
+    refuse("--initial-acceptance", "given beside --start-temperature", "one of the two", "leave one out");
   }
-  if (!settings.out.empty() && settings.entry.motion == 0) method.checkpoint = settings.out.string() + ".checkpoint";
+  if (settings.start_temperature > 0.0) method.options.start = {Rule::given, settings.start_temperature};
+  if (settings.initial_acceptance > 0.0) {
+    const bool all = settings.initial_acceptance == 1.0;
+    method.options.start = {all ? Rule::everything : Rule::acceptance, settings.initial_acceptance};
+  }
+  if (!settings.out.empty()) method.checkpoint = settings.out.string() + ".checkpoint";
   return method;
+}
+
+void check_method(const Settings& settings) {
+  if (!settings.anneals && !settings.anneal_flags.empty()) {
+    refuse(settings.anneal_flags.front(), "given without annealing", "only with --method anneal",
+           "add --method anneal");
+  }
+  if (settings.anneals && settings.entry.options.gap > 0.0)
+    refuse("--gap", "given with annealing", "only with --method exact", "leave it out");
+  if (settings.entry.channel > 0 && !settings.anneal.channels.empty())
+    refuse("--channels", "given beside --channel", "one of the two", "leave --channel out");
+  if (settings.entry.motion > 0 && !settings.trace.empty())
+    refuse("--trace", "given for a set of motions", "one tile: --motion 0", "leave one of the two out");
 }
 
 void run(Settings& settings, Session& session) {
   RetargetEntry& entry = settings.entry;
   AnnealTrace trace;
+  check_method(settings);
   if (settings.anneals) {
-    entry.anneal = annealing(settings, session);
+    entry.anneal = annealing(settings);
     if (!settings.trace.empty()) entry.anneal->trace = &trace;
   }
   entry.name = "retarget";
@@ -123,7 +178,8 @@ void run(Settings& settings, Session& session) {
   }
   const JobRecord job = make_retarget(entry, session.execution_showing("retarget"));
   session.progress.finish();
-  if (entry.anneal && !settings.trace.empty()) write_text_file(settings.trace, trace.csv(job.tiles.front().lower_bound));
+  if (entry.anneal && !settings.trace.empty())
+    write_text_file(settings.trace, trace.csv(job.tiles.front().lower_bound));
   for (const auto& note : job.notes) session.progress.note(note);
 
   Json result{{"source", entry.image},
@@ -137,9 +193,22 @@ void run(Settings& settings, Session& session) {
               {"motion", entry.motion},
               {"method", entry.anneal ? "anneal" : "exact"}};
   if (entry.anneal) {
-    result["schedule"] = entry.anneal->schedule;
-    result["proposals"] = entry.anneal->proposals;
-    result["seed"] = entry.anneal->seed;
+    const AnnealMethod& method = *entry.anneal;
+    if (!method.channels.empty()) {
+      result.erase("channel");
+      result["channels"] = method.channels;
+    }
+    if (!method.weights.empty()) result["weights"] = method.weights;
+    if (method.residual_sigma_px > 0.0) result["residual_sigma"] = method.residual_sigma_px;
+    result["schedule"] = method.options.schedule;
+    result["proposals"] = job.proposals.value();
+    result["seed"] = method.options.seed;
+    if (method.options.chains.count > 1) result["chains"] = method.options.chains.count;
+    if (method.seconds > 0.0) {
+      session.progress.note(
+          fmt::format("{} s are {} proposals here; give --budget {} for the same bytes again", method.seconds,
+                      *job.proposals, *job.proposals));
+    }
   }
   // The plain tile, motion (0, 0), stands in the middle of its set.
   const TileRecord& plain = job.tiles.at(job.tiles.size() / 2);
@@ -162,6 +231,53 @@ void run(Settings& settings, Session& session) {
   if (!settings.json && entry.motion > 0) session.output.write(energy_table(job.tiles, entry.motion));
 }
 
+/// The flags that only annealing has; in recipes they have the same names.
+void declare_annealing(Arguments& arguments, Settings& settings) {
+  const auto option = [&](const char* name, auto& target, auto kind, const char* help) {
+    arguments.option(name, target, noted(std::move(kind), settings.anneal_flags), help);
+  };
+  AnnealOptions& options = settings.anneal.options;
+  ScheduleParameters& parameters = options.parameters;
+  option("--schedule", options.schedule, schedule_value(), "How annealing cools.");
+  option("--budget", settings.budget, budget_value(),
+         "Of each tile and chain: proposals, or seconds, which are turned into proposals by a trial run.");
+  option("--seed", options.seed, seed_value(), "Of the random numbers.");
+  option("--start-temperature", settings.start_temperature, real_in(0, 1e15),
+         "Where it starts; 0 for automatic.");
+  option("--initial-acceptance", settings.initial_acceptance, real_in(0, 1),
+         "In its place: the share of worsening swaps accepted at the start, at least 0.001; 1 accepts "
+         "everything.");
+  option("--end-temperature", options.end_temperature, real_in(0, 1e15), "Where it ends; 0 for automatic.");
+  option(
+      "--factor", parameters.factor, optional_number<double>("above 0, at most 1"),
+      "The factor a of exponential and inverse (a proposal) or kirkpatrick (a stage), in place of one that "
+      "meets the end temperature.");
+  option("--slope", parameters.slope, optional_number<double>("0 or above"), "Of linear, a proposal.");
+  option("--hajek-c", parameters.hajek_c, optional_number<double>("above 0"), "The constant c of hajek.");
+  option("--stages", parameters.stages, optional_number<int>("1..1000000"),
+         "Of kirkpatrick: as many share the budget; 100 where nothing is given.");
+  option("--accepted-per-stage", parameters.accepted_per_stage, optional_number<std::int64_t>("1 or above"),
+         "Of kirkpatrick: a stage ends after as many accepted swaps.");
+  option("--tried-per-stage", parameters.tried_per_stage, optional_number<std::int64_t>("1 or above"),
+         "Of kirkpatrick: or after as many proposals.");
+  option("--frozen-stages", parameters.frozen_stages, optional_number<int>("1 or above"),
+         "Of kirkpatrick: the run ends after as many stages without a change; 3 where nothing is given.");
+  option("--chains", options.chains.count, integer_in(1, 256), "Chains to run.");
+  option("--coupling", options.chains.coupling,
+         choice_of<ChainOptions::Coupling>({{"independent", ChainOptions::Coupling::independent},
+                                            {"tempering", ChainOptions::Coupling::tempering}}),
+         "Of several chains: the best of them, or parallel tempering between start and end temperature.");
+  option("--swap-distance", options.swap_distance_px, integer_in(0, 64),
+         "The farthest apart per axis two swapped seeds may be, at most twice the radius; 0 for 5/3 of it.");
+  option("--channels", settings.anneal.channels, integer_list(0, 63, 16),
+         "Minimise the weighted sum over these channels, in place of one.");
+  option("--weights", settings.anneal.weights, integer_list(1, 1000, 16),
+         "Of the channels; 1 each if not given.");
+  option("--residual-sigma", settings.anneal.residual_sigma_px, real_in(0, 8, "pixels"),
+         "Minimise what a Gaussian blur leaves of the difference, 0.3 pixels or more; needs --metric l2.");
+  option("--trace", settings.trace, file_path(), "Write annealing's course as CSV (one tile only).");
+}
+
 }  // namespace
 
 Verb retarget_verb() {
@@ -175,10 +291,13 @@ Verb retarget_verb() {
       {"bn retarget mask.png --step 48,36 --radius 6 -o tile.png", "the optimal tile for one dither step"},
       {"bn retarget mask.png --motion 4 -o atlas.png", "all 81 motions of -4..4 pixels in one 9x9 atlas"},
       {"bn retarget mask.png --channel 0 --step 48,36 --radius 6", "only the figures; nothing is written"},
-      {"bn retarget large.exr --gap 0.5% -o tile.png --json",
-       "stop within a certified 0.5 % of the optimum"},
+      {"bn retarget large.exr --gap 0.5% -o tile.png --json", "stop within a certified 0.5 % of the optimum"},
       {"bn retarget mask.png --method anneal --schedule kirkpatrick --budget 2s --seed 1 -o tile.png",
-       "anneal for two seconds; Ctrl-C and the same command again go on from tile.png.checkpoint"}};
+       "anneal for two seconds; Ctrl-C and the same command again go on from tile.png.checkpoint"},
+      {"bn retarget rgb.png --method anneal --channels 0,1,2 --weights 2,4,1 --budget 1e9 -o tile.png",
+       "one tile for three channels at once"},
+      {"bn retarget mask.png --method anneal --metric l2 --residual-sigma 1.5 --budget 1e8 -o tile.png",
+       "the least difference as seen through a blur"}};
   verb.details =
       "A retarget tile says where the seed of each pixel goes so that seeds sorted like this frame's dither "
       "mask are "
@@ -212,17 +331,7 @@ Verb retarget_verb() {
                         "Stop when the energy is proven to be within this of the optimum.");
   verb.arguments.option("--method", settings->anneals, choice_of<bool>({{"exact", false}, {"anneal", true}}),
                         "The proven optimum, or simulated annealing, which the following flags steer.");
-  verb.arguments.option("--schedule", settings->anneal.schedule, schedule_value(), "How annealing cools.");
-  verb.arguments.option("--budget", settings->budget, budget_value(),
-                        "Of annealing, for each tile: proposals, or seconds, which are turned into proposals by a trial run.");
-  verb.arguments.option("--seed", settings->anneal.seed, seed_value(), "Of annealing's random numbers.");
-  verb.arguments.option("--start-temperature", settings->anneal.start_temperature, real_in(0, 1e15),
-                        "Where annealing starts; 0 for automatic.");
-  verb.arguments.option("--initial-acceptance", settings->anneal.initial_acceptance, real_in(0, 0.999),
-                        "In its place: the share of worsening swaps accepted at the start, at least 0.001.");
-  verb.arguments.option("--end-temperature", settings->anneal.end_temperature, real_in(0, 1e15),
-                        "Where annealing ends; 0 for automatic.");
-  verb.arguments.option("--trace", settings->trace, file_path(), "Write annealing's course as CSV (one tile only).");
+  declare_annealing(verb.arguments, *settings);
   verb.arguments.option("--form", settings->form,
                         choice_of<MoveForm>({{"scatter", MoveForm::scatter}, {"gather", MoveForm::gather}}),
                         "What the file stores: where a seed goes, or where it comes from.");

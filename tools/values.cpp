@@ -94,6 +94,27 @@ ValueKind<int> integer_in(int low, int high) {
           .show = [](const int& value) { return fmt::format("{}", value); }};
 }
 
+ValueKind<std::vector<int>> integer_list(int low, int high, std::size_t most_of_them) {
+  const std::string allowed = fmt::format("1..{} whole numbers, each {}..{}", most_of_them, low, high);
+  return {.placeholder = "N,N...",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                std::vector<int> values;
+                for (std::string_view rest = text;;) {
+                  const std::size_t comma = rest.find(',');
+                  const auto value = saturated_number<int>(rest.substr(0, comma));
+                  if (!value) fail(text, where, "is no list of numbers", allowed, "write it like 0,1,2");
+                  if (*value < low || *value > high) fail(text, where, "has a number out of range", allowed);
+                  values.push_back(*value);
+                  if (values.size() > most_of_them) fail(text, where, "is too long", allowed);
+                  if (comma == std::string_view::npos) return values;
+                  rest = rest.substr(comma + 1);
+                }
+              },
+          .show = [](const std::vector<int>& values) { return fmt::format("{}", fmt::join(values, ",")); }};
+}
+
 ValueKind<std::uint64_t> seed_value() {
   constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   const std::string allowed = fmt::format("0..{}", kLargest);

@@ -34,6 +34,8 @@ struct ValueKind {
 ValueKind<int> integer_in(int low, int high);
 /// 0..2^63-1: what recipes, in TOML, can write.
 ValueKind<std::uint64_t> seed_value();
+/// "0,1,2": at most `most_of_them` whole numbers, each low..high.
+ValueKind<std::vector<int>> integer_list(int low, int high, std::size_t most_of_them);
 /// Decimal points, never commas, whatever the locale.
 ValueKind<double> real_in(double low, double high, std::string unit = "");
 /// "0.5%" is 0.005. The sign is required: 0.5 alone could be meant either way.

@@ -134,14 +134,11 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
   entry.motion = range;
   entry.outputs = {{.path = tile.string(), .motion = {motion_x, motion_y}}};
   AnnealMethod method;
-  method.schedule = schedule_name();
-  method.proposals = options().proposals;
-  method.seed = options().seed;
-  // A recipe has no word for "accept everything"; the temperature that it came to says the same.
-  const Rule rule = options().start.rule;
-  if (rule == Rule::given || rule == Rule::everything) method.start_temperature = result.start_temperature;
-  if (rule == Rule::acceptance) method.initial_acceptance = start_acceptance;
-  method.end_temperature = options().end_temperature;
+  method.options = options();
+  method.options.checkpoint = {};
+  // Where the temperatures came from a sample, those that it came to.
+  if (options().start.rule == Rule::everything)
+    method.options.start = {Rule::given, result.start_temperature};
   entry.anneal = method;
   return entry;
 }

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "bake/anneal_job.h"
 #include "bake/contact_sheet.h"
 #include "bake/folder_lock.h"
 #include "bake/layout.h"
@@ -134,10 +135,15 @@ class Baker {
   }
 
   void do_retarget(std::size_t index) {
-    const RetargetEntry& entry = recipe_.retargets[index - recipe_.masks.size()];
+    RetargetEntry entry = recipe_.retargets[index - recipe_.masks.size()];
     const auto files = retarget_files(recipe_, entry, options_.out_dir);
+    if (entry.anneal) {
+      entry.anneal->checkpoint = files.front().path.string() + ".checkpoint";
+      std::error_code ignored;
+      if (options_.force) fs::remove(entry.anneal->checkpoint, ignored);
+    }
     const Source source =
-        read_source(source_path(recipe_, entry, options_.out_dir), entry.channel, execution_);
+        read_source(source_path(recipe_, entry, options_.out_dir), channels_of(entry), execution_);
     do_job(index, execution_, standing_retarget(entry, source, files, earlier_, execution_),
            [&](const Execution& execution, const OnFile& on_file) {
              return run_retarget_job(entry, source, files, execution, on_file);
@@ -279,9 +285,14 @@ std::vector<JobFile> checked_retarget_files(const RetargetEntry& entry) {
 
 }  // namespace
 
-JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution, const BakeEvents& events) {
-  const std::vector<JobFile> files = checked_retarget_files(entry);
-  const Source source = read_source(entry.image, entry.channel, execution);
+JobRecord make_retarget(const RetargetEntry& given, const Execution& execution, const BakeEvents& events) {
+  std::vector<JobFile> files = checked_retarget_files(given);
+  const Source source = read_source(given.image, channels_of(given), execution);
+  RetargetEntry entry = given;
+  if (given.anneal && given.anneal->seconds > 0.0) {
+    entry = with_budget_found(given, source, execution);
+    files = free_retarget_files(entry);
+  }
   BakePlan plan;
   plan.jobs = {{.kind = JobKind::retarget, .name = entry.name, .files = {}, .estimated_seconds = 1.0}};
   BakeMeter meter(plan, execution, events);
@@ -299,7 +310,7 @@ JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile, c
                  .remedy = ""});
   }
   const std::vector<JobFile> files = checked_retarget_files(entry);
-  return write_made_tile(entry, read_source(entry.image, entry.channel, execution), files[0], tile);
+  return write_made_tile(entry, read_source(entry.image, channels_of(entry), execution), files[0], tile);
 }
 
 }  // namespace bn

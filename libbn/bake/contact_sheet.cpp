@@ -271,7 +271,7 @@ SetView view_of(const Recipe& recipe, const RetargetEntry& entry, const JobRecor
                 const std::filesystem::path& out_dir, const Execution& execution) {
   SetView view{.job = &job,
                .entry = &entry,
-               .levels = read_source(source_path(recipe, entry, out_dir), entry.channel, execution).levels,
+               .levels = read_source(source_path(recipe, entry, out_dir), channels_of(entry), execution).levels[0],
                .source = "",
                .tile = std::nullopt,
                .atlas = std::nullopt};
@@ -328,7 +328,7 @@ Image draw_contact_sheet(const Recipe& recipe, const std::filesystem::path& out_
   for (int i = 0; i < masks; ++i) {
     throw_if_stopped(execution);
     const MaskEntry& mask = *lone_masks[static_cast<std::size_t>(i)];
-    sheet.mask(mask, read_source(out_dir / mask.outputs.front().path, 0, execution).levels);
+    sheet.mask(mask, read_source(out_dir / mask.outputs.front().path, {0}, execution).levels[0]);
   }
   if (wanted > shown) sheet.left_out(wanted - shown);
   return sheet.image();

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
-#include <iterator>
+
+#include "bake/anneal_job.h"
 
 namespace bn {
 namespace {
@@ -48,14 +48,22 @@ JobRecord run_mask_job(const MaskEntry& entry, const std::vector<JobFile>& files
   return job;
 }
 
-Source read_source(const std::filesystem::path& path, int channel, const Execution& execution) {
+std::vector<int> channels_of(const RetargetEntry& entry) {
+  if (entry.anneal && !entry.anneal->channels.empty()) return entry.anneal->channels;
+  return {entry.channel};
+}
+
+Source read_source(const std::filesystem::path& path, const std::vector<int>& channels,
+                   const Execution& execution) {
   const FileContent file = read_image(path, execution);
   try {
-    return {.path = path,
-            .channel = channel,
-            .hash = pixel_hash(file.image),
-            .is_mask = file.metadata && file.metadata->kind == "mask",
-            .levels = levels_of_channel(file.image, channel)};
+    Source source{.path = path,
+                  .channel = channels.front(),
+                  .hash = pixel_hash(file.image),
+                  .is_mask = file.metadata && file.metadata->kind == "mask",
+                  .levels = {}};
+    for (const int channel : channels) source.levels.push_back(levels_of_channel(file.image, channel));
+    return source;
   } catch (const Error& error) {
     ErrorInfo info = error.info();
     info.where = info.where.empty() ? path.string() : fmt::format("{}: {}", path.string(), info.where);
@@ -65,7 +73,7 @@ Source read_source(const std::filesystem::path& path, int channel, const Executi
 
 std::vector<std::string> source_notes(const Source& source, const RetargetOptions& options) {
   std::vector<std::string> notes;
-  const Levels& levels = source.levels;
+  const Levels& levels = source.levels[0];
   const Offset step = options.step;
   const Extent size = levels.value.size();
   if (levels.distinct == 1) {
@@ -77,9 +85,10 @@ std::vector<std::string> source_notes(const Source& source, const RetargetOption
         "the source is no permutation (its levels are not equally frequent): energies do not compare with a "
         "mask's");
   }
-  if (levels.rounding_error > 0.0) {
+  for (const Levels& channel : source.levels) {
+    if (channel.rounding_error == 0.0) continue;
     notes.push_back(fmt::format("float samples rounded to 65536 levels of {:.3g}, by at most {:.3g}",
-                                levels.unit, levels.rounding_error));
+                                channel.unit, channel.rounding_error));
   }
   if (wrap(step.x, size.width) == 0 && wrap(step.y, size.height) == 0) {
     notes.emplace_back("the step is 0 on this tile: the dither never changes, and not moving is optimal");
@@ -99,15 +108,19 @@ std::vector<std::string> source_notes(const Source& source, const RetargetOption
   return notes;
 }
 
+Offset step_of(const RetargetEntry& entry, const Source& source) {
+  return entry.step ? *entry.step : auto_step(source.levels[0].value.size()).step;
+}
+
 Metadata retarget_metadata(const RetargetEntry& entry, const RetargetOutput& output, const Source& source,
                            const JobFile& file) {
   Metadata metadata;
   metadata.algorithm = entry.anneal ? "retarget-anneal" : "retarget-exact";
   metadata.algorithm_version = entry.anneal ? kAnnealVersion : kExactRetargetVersion;
-  if (entry.anneal) metadata.seed = entry.anneal->seed;
+  if (entry.anneal) metadata.seed = entry.anneal->options.seed;
   metadata.kind = output.kind == RetargetOutput::Kind::tile ? "retarget-tile" : "retarget-atlas";
   metadata.recipe = file.recipe;
-  metadata.step = entry.step ? *entry.step : auto_step(source.levels.value.size()).step;
+  metadata.step = step_of(entry, source);
   metadata.radius = entry.options.radius;
   metadata.reach = name_of(entry.options.reach);
   metadata.metric = name_of(entry.options.metric);
@@ -121,77 +134,12 @@ Metadata retarget_metadata(const RetargetEntry& entry, const RetargetOutput& out
   return metadata;
 }
 
-namespace {
-
-AnnealOptions anneal_options(const AnnealMethod& method) {
-  AnnealOptions options;
-  options.schedule = method.schedule;
-  options.proposals = method.proposals;
-  options.seed = method.seed;
-  options.end_temperature = method.end_temperature;
-  using Rule = StartTemperature::Rule;
-  if (method.start_temperature > 0.0) options.start = {Rule::given, method.start_temperature};
-  if (method.initial_acceptance > 0.0) options.start = {Rule::acceptance, method.initial_acceptance};
-  return options;
-}
-
-/// One tile, going on from its checkpoint if there is one and leaving none behind.
-AnnealResult anneal_with_checkpoint(const AnnealProblem& problem, AnnealOptions options, const AnnealMethod& method,
-                                    const Execution& execution) {
-  if (method.checkpoint.empty()) return anneal_retarget(problem, options, execution, method.trace);
-  if (std::filesystem::exists(method.checkpoint)) {
-    std::ifstream file(method.checkpoint, std::ios::binary);
-    options.checkpoint.resume.assign(std::istreambuf_iterator<char>(file), {});
-    if (!file.good() && !file.eof()) {
-      throw Error({.code = ErrorCode::io,
-                   .what = "cannot be read",
-                   .where = method.checkpoint.string(),
-                   .limit = "",
-                   .remedy = "remove it to start afresh"});
-    }
-    // An empty file is no checkpoint; let the annealer say so.
-    if (options.checkpoint.resume.empty()) options.checkpoint.resume = std::string(1, '\0');
-  }
-  options.checkpoint.save = [&](std::string_view bytes) { write_text_file(method.checkpoint, bytes); };
-  AnnealResult result = anneal_retarget(problem, options, execution, method.trace);
-  std::error_code ignored;
-  std::filesystem::remove(method.checkpoint, ignored);
-  return result;
-}
-
-/// The tiles of a motion set, with lower bounds from the exact solver: a certificate within 1 % comes soon.
-std::vector<RetargetTile> anneal_tiles(const Grid<std::int32_t>& levels, const RetargetOptions& options,
-                                       const AnnealMethod& method, int motion, const Execution& execution) {
-  AnnealProblem problem;
-  problem.channels = {{levels}};
-  problem.retarget = options;
-  problem.retarget.motion = {0, 0};
-  std::vector<AnnealResult> results;
-  if (motion == 0) {
-    results.push_back(anneal_with_checkpoint(problem, anneal_options(method), method, execution));
-  } else {
-    results = anneal_motion_set(problem, anneal_options(method), motion, execution);
-  }
-  RetargetOptions bound = options;
-  bound.gap = 0.01;
-  const Execution silent{.threads = execution.threads, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
-  const std::vector<RetargetTile> bounds = solve_motion_set(levels, bound, motion, silent);
-  std::vector<RetargetTile> tiles;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    results[i].tile.lower_bound = bounds[i].lower_bound;
-    tiles.push_back(std::move(results[i].tile));
-  }
-  return tiles;
-}
-
-}  // namespace
-
 JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
                            const std::vector<JobFile>& files, const Execution& execution,
                            const OnFile& on_file) {
   const auto start = std::chrono::steady_clock::now();
   JobRecord job{.kind = JobKind::retarget, .name = entry.name};
-  const Extent size = source.levels.value.size();
+  const Extent size = source.levels[0].value.size();
   if (entry.motion < 0 || entry.motion > std::min(8, largest_motion(size))) {
     throw Error({.code = ErrorCode::invalid_input,
                  .what = fmt::format("motion {} on a tile of {}x{}", entry.motion, size.width, size.height),
@@ -200,14 +148,15 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
                  .remedy = ""});
   }
   RetargetOptions options = entry.options;
-  options.step = entry.step ? *entry.step : auto_step(size).step;
+  options.step = step_of(entry, source);
   job.step = options.step;
   job.orbit_length = orbit_length(size, options.step);
   job.notes = source_notes(source, options);
 
   const std::vector<RetargetTile> tiles =
-      entry.anneal ? anneal_tiles(source.levels.value, options, *entry.anneal, entry.motion, execution)
-                   : solve_motion_set(source.levels.value, options, entry.motion, execution);
+      entry.anneal ? anneal_tiles(entry, source, execution)
+                   : solve_motion_set(source.levels[0].value, options, entry.motion, execution);
+  if (entry.anneal) job.proposals = entry.anneal->options.proposals;
   for (int y = -entry.motion; y <= entry.motion; ++y) {
     for (int x = -entry.motion; x <= entry.motion; ++x) {
       const RetargetTile& tile = tiles[motion_index({x, y}, entry.motion)];
@@ -237,6 +186,10 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
     }
     write_file(files[i], image, metadata, job, on_file);
   }
+  if (entry.anneal && !entry.anneal->checkpoint.empty()) {
+    std::error_code ignored;
+    std::filesystem::remove(entry.anneal->checkpoint, ignored);
+  }
   job.seconds = seconds_since(start);
   return job;
 }
@@ -244,9 +197,9 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
 JobRecord write_made_tile(const RetargetEntry& entry, const Source& source, const JobFile& file,
                           const RetargetTile& tile) {
   const RetargetOutput& output = entry.outputs.at(0);
-  const Grid<std::int32_t>& levels = source.levels.value;
+  const Grid<std::int32_t>& levels = source.levels[0].value;
   RetargetOptions options = entry.options;
-  options.step = entry.step ? *entry.step : auto_step(levels.size()).step;
+  options.step = step_of(entry, source);
   options.motion = output.motion;
   const auto require = [](bool holds, const char* what) {
     if (holds) return;
@@ -258,8 +211,8 @@ JobRecord write_made_tile(const RetargetEntry& entry, const Source& source, cons
   };
   require(tile.move.size() == levels.size(), "its size is not its source's");
   check_permutation(tile.move, options);
-  require(retarget_energy(levels, tile.move, options) == tile.energy, "its energy is not that of its moves");
-  require(retarget_energy(levels, Grid<Offset>(levels.size(), options.motion), options) == tile.start_energy,
+  require(energy_of(entry, source, tile.move, options) == tile.energy, "its energy is not that of its moves");
+  require(energy_of(entry, source, Grid<Offset>(levels.size(), options.motion), options) == tile.start_energy,
           "its start energy is not the identity's");
   require(tile.lower_bound <= tile.energy, "its lower bound is above its energy");
 

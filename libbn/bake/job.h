@@ -30,12 +30,18 @@ JobRecord run_mask_job(const MaskEntry& entry, const std::vector<JobFile>& files
 /// The image that retarget tiles are made for.
 struct Source {
   std::filesystem::path path;
-  int channel = 0;
+  int channel = 0;  ///< the first one
   std::string hash;
-  bool is_mask = false;  ///< its metadata says that this toolkit made it as a mask
-  Levels levels;
+  bool is_mask = false;        ///< its metadata says that this toolkit made it as a mask
+  std::vector<Levels> levels;  ///< of each channel; the exact solver reads the first
 };
-Source read_source(const std::filesystem::path& path, int channel, const Execution& execution);
+Source read_source(const std::filesystem::path& path, const std::vector<int>& channels,
+                   const Execution& execution);
+/// The channels that an entry's energy is of.
+std::vector<int> channels_of(const RetargetEntry& entry);
+
+/// The entry's dither step, `auto` resolved.
+Offset step_of(const RetargetEntry& entry, const Source& source);
 
 /// What a user should know of this source under these options: a constant image, no permutation ...
 std::vector<std::string> source_notes(const Source& source, const RetargetOptions& options);

@@ -25,6 +25,13 @@ constexpr std::uint64_t kMaskBytesPerPixel = 12 + 8;     // the solver; encoding
 constexpr std::uint64_t kSolverBytesPerPixel = 64;       // of a tile in work
 constexpr std::uint64_t kTileBytesPerPixel = 8 + 3 + 3;  // of a finished tile: moves, image, atlas
 
+/// Of one tile.
+double annealing_seconds(const AnnealMethod& method) {
+  constexpr double kSecondsPerProposal = 6e-10, kSecondsPerFilteredOne = 1e-7;
+  return static_cast<double>(method.options.proposals) * method.options.chains.count *
+         (method.residual_sigma_px > 0.0 ? kSecondsPerFilteredOne : kSecondsPerProposal);
+}
+
 /// The nearest folder of `path` that exists.
 fs::path existing_folder(fs::path path) {
   path = fs::absolute(path).lexically_normal();
@@ -128,12 +135,12 @@ class Planner {
     if (const MaskEntry* mask = mask_of(recipe_, entry)) {
       size = mask->options.size;
       const auto made_by = static_cast<std::size_t>(mask - recipe_.masks.data());
-      if (plan_.jobs[made_by].stands) source = read_source(path, 0, execution_);
+      if (plan_.jobs[made_by].stands) source = read_source(path, {0}, execution_);
     } else {
       if (!passes(entry.line, fmt::format("{}: image '{}'", what, entry.image),
-                  [&] { source = read_source(path, entry.channel, execution_); }))
+                  [&] { source = read_source(path, channels_of(entry), execution_); }))
         return;
-      size = source->levels.value.size();
+      size = source->levels[0].value.size();
       if (entry.motion > largest_motion(size)) {
         mistakes_.add(entry.line,
                       fmt::format("{}: motion {} is larger than the tile of {}x{}", what, entry.motion,
@@ -145,8 +152,7 @@ class Planner {
     const auto pixels = static_cast<double>(size.area());
     job.estimated_seconds =
         tiles * pixels * kRetargetSecondsPerPixel * std::max(1.0, std::sqrt(pixels) / 128.0);
-    constexpr double kSecondsPerProposal = 6e-10;
-    if (entry.anneal) job.estimated_seconds += tiles * static_cast<double>(entry.anneal->proposals) * kSecondsPerProposal;
+    if (entry.anneal) job.estimated_seconds += tiles * annealing_seconds(*entry.anneal);
     const std::uint64_t at_once = static_cast<std::uint64_t>(std::min(thread_count(execution_), tiles));
     job.memory_bytes =
         static_cast<std::uint64_t>(size.area()) *

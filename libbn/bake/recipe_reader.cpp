@@ -177,6 +177,22 @@ std::optional<Offset> TableReader::pair(std::string_view key, std::int64_t least
   return Offset{static_cast<int>(x), static_cast<int>(y)};
 }
 
+std::vector<int> TableReader::integers(std::string_view key, std::size_t most_of_them, int least, int most) {
+  const std::string limit =
+      fmt::format("[n, ...], 1..{} integers, each {}", most_of_them, range_text(least, most));
+  const toml::array* list = array(key, limit);
+  if (!list) return {};
+  std::vector<int> values;
+  for (const toml::node& node : *list) {
+    const auto* value = node.as_integer();
+    if (!value || value->get() < least || value->get() > most) break;
+    values.push_back(static_cast<int>(value->get()));
+  }
+  if (!list->empty() && values.size() == list->size() && values.size() <= most_of_them) return values;
+  mistake(key, "is no such list", limit);
+  return {};
+}
+
 const toml::array* TableReader::array(std::string_view key, std::string_view limit) {
   const toml::node* node = find(key);
   if (!node) return nullptr;

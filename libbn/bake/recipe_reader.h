@@ -58,6 +58,8 @@ class TableReader {
   /// Two integers, each least..most.
   std::optional<Offset> pair(std::string_view key, std::int64_t least, std::int64_t most,
                              std::string_view alternative = "");
+  /// At most `most_of_them` integers, each least..most; empty if absent.
+  std::vector<int> integers(std::string_view key, std::size_t most_of_them, int least, int most);
   const toml::array* array(std::string_view key, std::string_view limit);
   const toml::node* find(std::string_view key);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <type_traits>
 
 #include "bn/bake.h"
 
@@ -29,6 +30,46 @@ std::string toml_string(std::string_view text) {
 std::string number(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return text;
+}
+
+/// Parameters that were left to follow from others are left out.
+std::string anneal_text(const AnnealMethod& anneal) {
+  const AnnealOptions& options = anneal.options;
+  using Rule = StartTemperature::Rule;
+  const Rule rule = options.start.rule;
+  std::string text = "method = \"anneal\"\n";
+  const auto out = std::back_inserter(text);
+  if (!anneal.channels.empty()) fmt::format_to(out, "channels = [{}]\n", fmt::join(anneal.channels, ", "));
+  if (!anneal.weights.empty()) fmt::format_to(out, "weights = [{}]\n", fmt::join(anneal.weights, ", "));
+  fmt::format_to(out, "residual_sigma = {}\nschedule = \"{}\"\n", number(anneal.residual_sigma_px),
+                 options.schedule);
+  const auto given = [&](const char* key, const auto& value) {
+    if (!value) return;
+    if constexpr (std::is_same_v<std::decay_t<decltype(*value)>, double>) {
+      fmt::format_to(out, "{} = {}\n", key, number(*value));
+    } else {
+      fmt::format_to(out, "{} = {}\n", key, *value);
+    }
+  };
+  const ScheduleParameters& p = options.parameters;
+  given("factor", p.factor);
+  given("slope", p.slope);
+  given("hajek_c", p.hajek_c);
+  given("stages", p.stages);
+  given("accepted_per_stage", p.accepted_per_stage);
+  given("tried_per_stage", p.tried_per_stage);
+  given("frozen_stages", p.frozen_stages);
+  const double acceptance = rule == Rule::everything   ? 1.0
+                            : rule == Rule::acceptance ? options.start.value
+                                                       : 0.0;
+  fmt::format_to(out,
+                 "proposals = {}\nseed = {}\nstart_temperature = {}\ninitial_acceptance = {}\n"
+                 "end_temperature = {}\nchains = {}\ncoupling = \"{}\"\nswap_distance = {}\n",
+                 options.proposals, options.seed, number(rule == Rule::given ? options.start.value : 0.0),
+                 number(acceptance), number(options.end_temperature), options.chains.count,
+                 options.chains.coupling == ChainOptions::Coupling::tempering ? "tempering" : "independent",
+                 options.swap_distance_px);
   return text;
 }
 
@@ -58,20 +99,17 @@ std::string recipe_text(const Recipe& recipe) {
   for (const RetargetEntry& set : recipe.retargets) {
     fmt::format_to(out, "\n[[retarget]]\nname = {}\n", toml_string(set.name));
     if (set.mask.empty()) {
-      fmt::format_to(out, "image = {}\nchannel = {}\n", toml_string(set.image), set.channel);
+      fmt::format_to(out, "image = {}\n", toml_string(set.image));
+      if (!set.anneal || set.anneal->channels.empty()) fmt::format_to(out, "channel = {}\n", set.channel);
     } else {
       fmt::format_to(out, "mask = {}\nlevels = \"{}\"\n", toml_string(set.mask), name_of(set.levels));
     }
     const std::string step = set.step ? fmt::format("[{}, {}]", set.step->x, set.step->y) : "\"auto\"";
-    fmt::format_to(out, "step = {}\nradius = {}\nreach = \"{}\"\nmetric = \"{}\"\nwrap = {}\nmotion = {}\n", step,
-                   set.options.radius, name_of(set.options.reach), name_of(set.options.metric), set.options.wrap,
-                   set.motion);
+    fmt::format_to(out, "step = {}\nradius = {}\nreach = \"{}\"\nmetric = \"{}\"\nwrap = {}\nmotion = {}\n",
+                   step, set.options.radius, name_of(set.options.reach), name_of(set.options.metric),
+                   set.options.wrap, set.motion);
     if (set.anneal) {
-      fmt::format_to(out, "method = \"anneal\"\nschedule = \"{}\"\nproposals = {}\nseed = {}\n", set.anneal->schedule,
-                     set.anneal->proposals, set.anneal->seed);
-      fmt::format_to(out, "start_temperature = {}\ninitial_acceptance = {}\nend_temperature = {}\n",
-                     number(set.anneal->start_temperature), number(set.anneal->initial_acceptance),
-                     number(set.anneal->end_temperature));
+      text += anneal_text(*set.anneal);
     } else {
       fmt::format_to(out, "gap = {}\n", number(set.options.gap));
     }

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 
+#include "bake/anneal_job.h"
 #include "bake/job.h"
 #include "bake/manifest.h"
 #include "bn/bake.h"
@@ -190,17 +192,22 @@ class FileVerifier {
     const bool has_source = attempt("source", [&] {
       if (!metadata_.source || !metadata_.source_channel || !metadata_.source_hash)
         fail("the file names none");
-      source = read_source(file_.parent_path() / *metadata_.source, *metadata_.source_channel, execution_);
+      const RetargetEntry& set = recipe_.retargets[0];
+      std::vector<int> channels{*metadata_.source_channel};
+      if (set.mask.empty()) channels = channels_of(set);
+      if (channels[0] != *metadata_.source_channel)
+        fail("the recipe reads another channel than the record says");
+      source = read_source(file_.parent_path() / *metadata_.source, channels, execution_);
       if (source.hash != *metadata_.source_hash) {
         fail(fmt::format("{}: pixels have {}, recorded is {}", *metadata_.source, source.hash,
                          *metadata_.source_hash));
       }
-      if (source.levels.value.size() != tile_size_) fail("the source and the tile differ in size");
+      if (source.levels[0].value.size() != tile_size_) fail("the source and the tile differ in size");
       return fmt::format("{} {}", *metadata_.source, source.hash);
     });
     if (!has_source) return;
-    attempt("energy", [&] { return check_energies(source.levels.value, moves); });
-    attempt("bound", [&] { return check_bounds(source.levels.value); });
+    attempt("energy", [&] { return check_energies(source, moves); });
+    attempt("bound", [&] { return check_bounds(source); });
   }
 
   /// Calls each(index, options of that motion); an error tells which motion it was.
@@ -218,14 +225,15 @@ class FileVerifier {
     }
   }
 
-  std::string check_energies(const Grid<std::int32_t>& levels, const std::vector<Grid<Offset>>& moves) {
+  std::string check_energies(const Source& source, const std::vector<Grid<Offset>>& moves) {
     std::int64_t least = metadata_.tiles[0].energy, most = least;
     for_each_tile([&](std::size_t i, const RetargetOptions& options) {
       const TileRecord& recorded = metadata_.tiles[i];
-      const std::int64_t energy = retarget_energy(levels, moves[i], options);
+      const std::int64_t energy = energy_of(recipe_.retargets[0], source, moves[i], options);
       if (energy != recorded.energy)
         fail(fmt::format("energy is {}, recorded is {}", energy, recorded.energy));
-      const std::int64_t start = retarget_energy(levels, Grid<Offset>(tile_size_, options.motion), options);
+      const std::int64_t start =
+          energy_of(recipe_.retargets[0], source, Grid<Offset>(tile_size_, options.motion), options);
       if (start != recorded.start_energy) {
         fail(fmt::format("start energy is {}, recorded is {}", start, recorded.start_energy));
       }
@@ -237,7 +245,12 @@ class FileVerifier {
 
   /// A recorded bound holds if a new proof reaches it. The new proof may stop at the recipe's gap;
   /// only a bound between that proof and its permutation's energy needs the full one.
-  std::string check_bounds(const Grid<std::int32_t>& levels) {
+  std::string check_bounds(const Source& source) {
+    const RetargetEntry& set = recipe_.retargets[0];
+    if (set.anneal &&
+        (source.levels.size() > 1 || set.anneal->residual_sigma_px > 0.0 || !set.anneal->weights.empty()))
+      return check_anneal_bounds(anneal_problem(set, source));
+    const Grid<std::int32_t>& levels = source.levels[0].value;
     std::vector<std::string> failures(metadata_.tiles.size());
     std::int64_t optimal = 0;
     for (const TileRecord& tile : metadata_.tiles) optimal += tile.energy == tile.lower_bound;
@@ -270,6 +283,24 @@ class FileVerifier {
       if (!failures[i].empty()) fail(failures[i]);
     });
     return fmt::format("proven again, {} of {} tiles optimal", optimal, count);
+  }
+
+  /// Of energies that no exact solver handles whole: proven channel by channel.
+  std::string check_anneal_bounds(AnnealProblem problem) {
+    problem.retarget = options_;
+    int range = 0;
+    for (const TileRecord& tile : metadata_.tiles)
+      range = std::max({range, std::abs(tile.motion.x), std::abs(tile.motion.y)});
+    const std::vector<std::int64_t> bounds = anneal_bounds(problem, range, 0.0, execution_);
+    for_each_tile([&](std::size_t i, const RetargetOptions& options) {
+      const std::int64_t bound = bounds[motion_index(options.motion, range)];
+      if (metadata_.tiles[i].lower_bound > bound) {
+        fail(fmt::format("recorded bound {} is above {}, the most that is proven",
+                         metadata_.tiles[i].lower_bound, bound));
+      }
+    });
+    return problem.residual_sigma_px > 0.0 ? "0, as no energy is below it"
+                                           : "proven again, channel by channel";
   }
 
   fs::path file_;

@@ -166,16 +166,24 @@ std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const A
   trial.proposals = 1 << 14;
   while (true) {
     const auto start = std::chrono::steady_clock::now();
-    anneal_retarget(problem, trial, inside);
-    const double took =
-        std::max(1e-6, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    Annealing run(problem, trial, inside);
+    while (!run.state().done) {
+      throw_if_stopped(inside);
+      run.beat();
+    }
+    const double made_s = std::max(1e-6, run.state().seconds);
+    // What comes before the first proposal, an automatic temperature above all, comes once whatever the
+    // budget.
+    const double before_s =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() - run.state().seconds;
+    const double left_s = std::max(0.1 * seconds, seconds - before_s);
     constexpr std::int64_t kMost = std::int64_t{1} << 50;
-    if (took >= seconds / 40.0 || trial.proposals >= kMost) {
+    if (made_s >= left_s / 40.0 || trial.proposals >= kMost) {
       return std::max<std::int64_t>(
-          1, static_cast<std::int64_t>(static_cast<double>(trial.proposals) * (seconds / took)));
+          1, static_cast<std::int64_t>(static_cast<double>(trial.proposals) * (left_s / made_s)));
     }
     // Four times as long next, or what just reaches a fortieth.
-    trial.proposals *= static_cast<std::int64_t>(std::clamp(seconds / 40.0 / took, 2.0, 8.0));
+    trial.proposals *= static_cast<std::int64_t>(std::clamp(left_s / 40.0 / made_s, 2.0, 8.0));
   }
 }
 

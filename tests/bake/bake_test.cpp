@@ -258,7 +258,7 @@ TEST(WriteRetarget, WritesTheFileThatMakeRetargetMakes) {
       .name = "m", .options = {.size = {32, 32}}, .outputs = {{.path = (out / "m.png").string()}}};
   make_mask(mask);
   RetargetEntry entry{.name = "t", .mask = "", .image = mask.outputs[0].path, .step = Offset{11, 7}};
-  entry.anneal = AnnealMethod{.proposals = 100'000};
+  entry.anneal = AnnealMethod{.options = {.proposals = 100'000}};
   for (const Offset motion : {Offset{0, 0}, Offset{-1, 1}}) {
     entry.motion = motion == Offset{0, 0} ? 0 : 1;
     entry.outputs = {{.path = (out / "made.png").string(), .form = MoveForm::gather, .motion = motion}};

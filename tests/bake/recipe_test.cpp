@@ -35,6 +35,93 @@ TEST(Recipe, WrittenOutReadsBackTheSame) {
   EXPECT_EQ(recipe_text(parse_recipe(text, "again", "")), text);
 }
 
+constexpr const char* kAnnealed = R"(version = 1
+[[retarget]]
+name = "a"
+image = "rgb.png"
+method = "anneal"
+metric = "l2"
+channels = [2, 0]
+weights = [3, 1]
+residual_sigma = 1.5
+schedule = "kirkpatrick"
+factor = 0.9
+stages = 50
+accepted_per_stage = 12
+tried_per_stage = 10000000000
+frozen_stages = 4
+proposals = 10000000000
+seed = 9
+initial_acceptance = 1
+end_temperature = 0.25
+chains = 8
+coupling = "independent"
+swap_distance = 7
+outputs = ["a.png"]
+)";
+
+TEST(Recipe, AnnealingIsReadAsWritten) {
+  const Recipe recipe = parse_recipe(kAnnealed, "a.toml", "");
+  const AnnealMethod& anneal = recipe.retargets.at(0).anneal.value();
+  EXPECT_EQ(anneal.channels, (std::vector<int>{2, 0}));
+  EXPECT_EQ(anneal.weights, (std::vector<int>{3, 1}));
+  EXPECT_EQ(anneal.residual_sigma_px, 1.5);
+  EXPECT_EQ(anneal.options.schedule, "kirkpatrick");
+  EXPECT_EQ(anneal.options.parameters.factor, 0.9);
+  EXPECT_EQ(anneal.options.parameters.stages, 50);
+  EXPECT_EQ(anneal.options.parameters.accepted_per_stage, 12);
+  EXPECT_EQ(anneal.options.parameters.tried_per_stage, 10'000'000'000);
+  EXPECT_EQ(anneal.options.parameters.frozen_stages, 4);
+  EXPECT_FALSE(anneal.options.parameters.slope.has_value());
+  EXPECT_EQ(anneal.options.proposals, 10'000'000'000);
+  EXPECT_EQ(anneal.options.start.rule, StartTemperature::Rule::everything);
+  EXPECT_EQ(anneal.options.end_temperature, 0.25);
+  EXPECT_EQ(anneal.options.chains.count, 8);
+  EXPECT_EQ(anneal.options.swap_distance_px, 7);
+  const std::string text = recipe_text(recipe);
+  EXPECT_EQ(recipe_text(parse_recipe(text, "again", "")), text);
+}
+
+TEST(Recipe, WhatAnnealingRefusesIsNamed) {
+  const auto message = [](const std::string& line, const std::string& more) {
+    std::string text = kAnnealed;
+    const std::size_t at = text.find(line);
+    EXPECT_NE(at, std::string::npos) << line;
+    text.replace(at, line.size(), more);
+    try {
+      parse_recipe(text, "a.toml", "");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code(), ErrorCode::invalid_input);
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto says = [&](const std::string& line, const std::string& more,
+                        const std::vector<const char*>& parts) {
+    const std::string what = message(line, more);
+    for (const char* part : parts) EXPECT_NE(what.find(part), std::string::npos) << part << " in: " << what;
+  };
+  says("factor = 0.9", "factor = 1.5", {"a.toml:11", "factor", "1.5", "above 0, at most 1"});
+  says("factor = 0.9", "factor = 0", {"a.toml:11", "factor", "above 0, at most 1"});
+  says("factor = 0.9", "factor = 1", {"a.toml:11", "factor", "below 1"});
+  says("factor = 0.9", "slope = 1", {"slope", "only with linear"});
+  says("schedule = \"kirkpatrick\"", "schedule = \"boil\"", {"schedule is 'boil'", "\"hajek\""});
+  says("stages = 50", "stages = 0", {"stages", "1..1000000"});
+  says("tried_per_stage = 10000000000", "tried_per_stage = -1", {"tried_per_stage", "at least 1"});
+  says("proposals = 10000000000", "proposals = 0", {"proposals is 0", "1..4611686018427387904"});
+  says("initial_acceptance = 1", "start_temperature = 0.1", {"end_temperature is 0.25", "at most 0.1"});
+  says("chains = 8", "chains = 0", {"chains is 0", "1..256"});
+  says("chains = 8\ncoupling = \"independent\"", "coupling = \"tempering\"", {"chains", "2..256"});
+  says("swap_distance = 7", "swap_distance = 13", {"swap_distance is 13", "0..12"});
+  says("weights = [3, 1]", "weights = [3]", {"weights has 1 elements", "one for each channel"});
+  says("weights = [3, 1]", "weights = [3, 0]", {"weights is no such list", "1..1000"});
+  says("channels = [2, 0]", "channels = []", {"channels is no such list"});
+  says("channels = [2, 0]", "channels = [0, 1]\nchannel = 2", {"channels stands beside channel"});
+  says("metric = \"l2\"", "", {"residual_sigma", "l2"});
+  says("residual_sigma = 1.5", "residual_sigma = 0.1", {"residual_sigma is 0.1", "0.3..8"});
+  says("method = \"anneal\"", "", {"coupling needs annealing", "channels needs annealing"});
+}
+
 TEST(Recipe, GapIsAShareOrPercent) {
   const auto gap = [](const std::string& value) {
     return parse_recipe(

@@ -8,6 +8,7 @@
 #include <csignal>
 #include <thread>
 
+#include "bn/anneal.h"
 #include "process.h"
 #include "textures.h"
 
@@ -50,6 +51,97 @@ TEST_F(AnnealVerb, AMotionSetVerifies) {
   EXPECT_EQ(run({"verify", "atlas.png"}).exit_code, 0);
 }
 
+TEST_F(AnnealVerb, AnnealsWhatTheExactSolverCannot) {
+  Image three = simple_mask(32, SampleType::u16);
+  three.size = {16, 16};
+  three.channels = 3;
+  three.samples.resize(16 * 16 * 3 * 2);
+  write_image(scratch_ / "rgb.png", three, {});
+  const auto words = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> all{"retarget", "rgb.png", "--step", "5,3",   "--radius", "3",  "--method",
+                                 "anneal",   "--json",  "-o",     "o.png", "--budget", "2e5"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  auto result = run(words({"--channels", "2,0", "--weights", "3,1"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("channels"), (std::vector<int>{2, 0}));
+  EXPECT_GT(json.at("lower_bound"), 0) << "the sum of the channels' bounds";
+  EXPECT_GE(json.at("energy"), json.at("lower_bound"));
+  EXPECT_EQ(run({"verify", "o.png"}).exit_code, 0) << run({"verify", "o.png"}).out;
+  // Single channels weigh as they should.
+  const auto start_of = [&](const std::vector<std::string>& more) {
+    return nlohmann::json::parse(run(words(more)).out).at("start_energy").get<std::int64_t>();
+  };
+  EXPECT_EQ(json.at("start_energy"),
+            3 * start_of({"--channels", "2"}) + start_of({"--channels", "0", "--weights", "1"}));
+
+  result = run(words({"--metric", "l2", "--residual-sigma", "1.5", "--chains", "2"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_LT(nlohmann::json::parse(result.out).at("energy"),
+            nlohmann::json::parse(result.out).at("start_energy"));
+  EXPECT_EQ(run({"verify", "o.png"}).exit_code, 0) << run({"verify", "o.png"}).out;
+
+  result = run(words(
+      {"--chains", "3", "--coupling", "tempering", "--swap-distance", "2", "--initial-acceptance", "1"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(run({"verify", "o.png"}).exit_code, 0);
+  result = run(words({"--schedule", "kirkpatrick", "--factor", "0.9", "--accepted-per-stage", "500",
+                      "--tried-per-stage", "10000", "--frozen-stages", "2", "--stages", "30"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  // What the file carries makes it again.
+  const auto recipe = nlohmann::json::parse(run({"info", "o.png", "--json"}).out)
+                          .at("metadata")
+                          .at("recipe")
+                          .get<std::string>();
+  EXPECT_NE(recipe.find("tried_per_stage = 10000"), std::string::npos) << recipe;
+  write_bytes(scratch_ / "again.toml", recipe);
+  ASSERT_EQ(run({"bake", "again.toml", "--out", "again"}).exit_code, 0);
+  const auto hash_of = [&](const std::string& file) {
+    return nlohmann::json::parse(run({"info", file, "--json"}).out).at("metadata").at("pixel_hash");
+  };
+  EXPECT_EQ(hash_of("again/o.png"), hash_of("o.png"));
+}
+
+TEST_F(AnnealVerb, AMotionSetGoesOnWhereItWasKilled) {
+  auto words = arguments("1.5e8", "atlas.png");
+  words.insert(words.end(), {"--motion", "1"});
+  const auto checkpoint = scratch_ / "atlas.png.checkpoint";
+  for (int wait_ms = 100; wait_ms < 10000 && !std::filesystem::exists(checkpoint); wait_ms *= 2) {
+    Process process(words, {.folder = scratch_.path()});
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+    process.send(SIGINT);
+    ASSERT_NE(process.wait().exit_code, 0);
+  }
+  ASSERT_TRUE(std::filesystem::exists(checkpoint));
+  // A kill leaves the checkpoint that there was; a recipe goes on by the same file.
+  Process process(words, {.folder = scratch_.path()});
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  process.send(SIGKILL);
+  process.wait();
+  ASSERT_TRUE(std::filesystem::exists(checkpoint));
+  ASSERT_EQ(run(words).exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(checkpoint));
+  const std::string resumed = read_bytes(scratch_ / "atlas.png");
+  ASSERT_EQ(run(words).exit_code, 0);
+  EXPECT_EQ(resumed, read_bytes(scratch_ / "atlas.png"));
+}
+
+TEST_F(AnnealVerb, ABudgetInSecondsIsKeptByItsCheckpoint) {
+  const auto checkpoint = scratch_ / "tile.png.checkpoint";
+  for (int wait_ms = 700; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms *= 2) {
+    Process process(arguments("3s", "tile.png"), {.folder = scratch_.path()});
+    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+    process.send(SIGINT);
+    ASSERT_NE(process.wait().exit_code, 0);
+  }
+  const std::int64_t proposals = checkpoint_proposals(read_bytes(checkpoint));
+  const auto result = run(arguments("3s", "tile.png"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out).at("proposals"), proposals);
+}
+
 TEST_F(AnnealVerb, GoesOnWhereItWasStopped) {
   const std::string budget = "1.5e9";
   // A stop before the run began leaves no checkpoint: wait longer then.
@@ -81,12 +173,46 @@ TEST_F(AnnealVerb, BadSettingsAreNamedAndNothingIsOverwritten) {
     EXPECT_EQ(read_bytes(scratch_ / "tile.png"), "mine");
   };
   refused({"--schedule", "boil"}, "boil");
+  for (const char* factor : {"0", "1.5"}) refused({"--factor", factor}, "factor");
+  refused({"--schedule", "kirkpatrick", "--factor", "1"}, "factor");
+  refused({"--schedule", "linear", "--factor", "0.5"}, "factor");
+  refused({"--coupling", "tempering"}, "chains");
+  refused({"--residual-sigma", "1.5"}, "l2");
+  refused({"--channels", "0,0", "--weights", "1,2,3"}, "weights");
+  refused({"--channels", "0,7"}, "channel");
+  refused({"--motion", "1", "--trace", "t.csv"}, "--trace");
+  refused({"--gap", "1%"}, "--gap");
   refused({"--start-temperature", "1", "--end-temperature", "2"}, "end_temperature");
   const auto zero = run(arguments("0", "tile.png"));
   EXPECT_EQ(zero.exit_code, 3);
   EXPECT_NE(zero.err.find("budget"), std::string::npos);
   write_bytes(scratch_ / "tile.png.checkpoint", "annlcp01 and then rubbish that is long enough to be read");
   refused({}, "checkpoint");
+  // Of another run, and of this one cut short.
+  std::filesystem::remove(scratch_ / "tile.png.checkpoint");
+  const auto stopped = [&](const std::string& budget, const std::string& out) {
+    for (int wait_ms = 100; wait_ms < 10000 && !std::filesystem::exists(scratch_ / (out + ".checkpoint"));
+         wait_ms *= 2) {
+      Process process(arguments(budget, out), {.folder = scratch_.path()});
+      std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
+      process.send(SIGINT);
+      process.wait();
+    }
+    return read_bytes(scratch_ / (out + ".checkpoint"));
+  };
+  const std::string bytes = stopped("2e9", "other.png");
+  write_bytes(scratch_ / "tile.png.checkpoint", bytes);
+  refused({}, "another problem or other options");
+  write_bytes(scratch_ / "tile.png.checkpoint", bytes.substr(0, bytes.size() / 2));
+  refused({}, "cut short");
+  write_bytes(scratch_ / "tile.png.checkpoint", "");
+  refused({}, "cut short");
+}
+
+TEST_F(AnnealVerb, FlagsOfAnnealingNeedIt) {
+  const auto result = run({"retarget", "m.png", "--schedule", "linear"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("--schedule: given without annealing"), std::string::npos) << result.err;
 }
 
 }  // namespace

@@ -30,6 +30,18 @@ TEST(Values, IntegersAreWholeAndInRange) {
   }
 }
 
+TEST(Values, ListsOfIntegers) {
+  const auto kind = integer_list(0, 63, 3);
+  EXPECT_EQ(kind.parse("5", ""), (std::vector<int>{5}));
+  EXPECT_EQ(kind.parse("0,63,2", ""), (std::vector<int>{0, 63, 2}));
+  EXPECT_EQ(kind.show({1, 2}), "1,2");
+  EXPECT_EQ(refusal(kind, "0,64"),
+            "--flag: '0,64' has a number out of range (allowed: 1..3 whole numbers, each 0..63)");
+  EXPECT_NE(refusal(kind, "1,2,3,4").find("is too long"), std::string::npos);
+  for (const char* text : {"", ",", "1,", ",1", "1;2", "1, 2", "a"})
+    EXPECT_NE(refusal(kind, text).find("is no list of numbers"), std::string::npos) << text;
+}
+
 TEST(Values, RealsRefuseNanAndInfinity) {
   const auto kind = real_in(0.3, 16, "pixels");
   EXPECT_EQ(kind.parse("1.9", ""), 1.9);

@@ -70,18 +70,20 @@ struct RetargetOutput {
   int line = 0;
 };
 
-/// `method = "anneal"` of a retarget entry: what bn/anneal.h anneals with; other options hold their defaults.
+/// `method = "anneal"` of a retarget entry: what bn/anneal.h anneals, and with which options.
 struct AnnealMethod {
-  std::string schedule = "exponential";
-  std::int64_t proposals = 1'000'000'000;  ///< of each tile
-  std::uint64_t seed = 1;
-  double start_temperature = 0.0;   ///< 0: from initial_acceptance
-  double initial_acceptance = 0.0;  ///< 0: automatic. At most one of the two is given
-  double end_temperature = 0.0;     ///< 0: automatic
-  /// Where a run of one tile keeps its checkpoint, and goes on from if it is there; empty: nowhere. No part of
-  /// a recipe, as it changes no byte.
+  AnnealOptions options = {};  ///< custom, lower_bound and checkpoint are not used
+  /// Channels of the image, whose weighted sum is the energy; empty: the entry's one channel, of weight 1.
+  std::vector<int> channels = {};
+  std::vector<int> weights = {};   ///< one a channel, 1..1000; empty: 1 each
+  double residual_sigma_px = 0.0;  ///< AnnealProblem's
+  /// The rest is no part of a recipe, as it changes no byte once the budget is known.
+  double seconds =
+      0.0;  ///< above 0: a budget by the clock in place of options.proposals; make_retarget() only
+  /// Where a run keeps its checkpoint, and goes on from if it is there; empty: nowhere. A bake sets it
+  /// itself, beside the entry's first output.
   std::filesystem::path checkpoint = {};
-  AnnealTrace* trace = nullptr;  ///< of one tile; likewise
+  AnnealTrace* trace = nullptr;  ///< of one tile
 };
 
 /// `[[retarget]]`: the retarget tiles of one source for every motion within a range.
@@ -95,10 +97,10 @@ struct RetargetEntry {
   /// For a mask: the sample type whose levels the tiles are optimised for, which is what the
   /// renderer reads; the mask must have an output of it. An image has its own type.
   SampleType levels = SampleType::u8;
-  std::optional<Offset> step = {};  ///< none: auto_step() of the source's size
-  RetargetOptions options = {};     ///< step and motion are ignored
+  std::optional<Offset> step = {};          ///< none: auto_step() of the source's size
+  RetargetOptions options = {};             ///< step and motion are ignored
   std::optional<AnnealMethod> anneal = {};  ///< none: the exact solver, with options.gap
-  int motion = 0;                   ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
+  int motion = 0;                           ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
   std::vector<RetargetOutput> outputs = {};
   int line = 0;
 };
@@ -176,7 +178,8 @@ struct JobRecord {
   std::optional<Offset> step = {};                ///< of a retarget set, `auto` resolved
   std::optional<std::int64_t> orbit_length = {};  ///< of that step
   std::vector<FileRecord> files = {};
-  std::vector<TileRecord> tiles = {};   ///< of a retarget set: every motion, row by row
+  std::vector<TileRecord> tiles = {};          ///< of a retarget set: every motion, row by row
+  std::optional<std::int64_t> proposals = {};  ///< the budget of each tile that was annealed now
   std::vector<std::string> notes = {};  ///< what a user should know: a constant source, no permutation, ...
 };
 

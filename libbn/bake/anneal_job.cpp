@@ -1,0 +1,128 @@
+#include "bake/anneal_job.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+namespace bn {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The bytes of a checkpoint file; empty if there is none.
+std::string read_checkpoint(const fs::path& path) {
+  if (path.empty() || !fs::exists(path)) return {};
+  std::ifstream file(path, std::ios::binary);
+  std::string bytes(std::istreambuf_iterator<char>(file), {});
+  if (!file.good() && !file.eof()) {
+    throw Error({.code = ErrorCode::io,
+                 .what = "cannot be read",
+                 .where = path.string(),
+                 .limit = "",
+                 .remedy = "remove it to start afresh"});
+  }
+  // An empty file is no checkpoint; let the annealer say so.
+  return bytes.empty() ? std::string(1, '\0') : bytes;
+}
+
+/// Calls `body`; what it throws about a checkpoint then names the file.
+template <class Body>
+auto naming_checkpoint(const fs::path& path, Body body) {
+  try {
+    return body();
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    if (info.where != "checkpoint" || path.empty()) throw;
+    info.where = path.string();
+    info.remedy = "remove it to start afresh, or give the options it was made with";
+    throw Error(info);
+  }
+}
+
+}  // namespace
+
+AnnealProblem anneal_problem(const RetargetEntry& entry, const Source& source) {
+  const AnnealMethod& method = *entry.anneal;
+  AnnealProblem problem;
+  for (std::size_t c = 0; c < source.levels.size(); ++c) {
+    problem.channels.push_back(
+        {.levels = source.levels[c].value, .weight = method.weights.empty() ? 1 : method.weights.at(c)});
+  }
+  problem.retarget = entry.options;
+  problem.retarget.step = step_of(entry, source);
+  problem.retarget.motion = {0, 0};
+  problem.residual_sigma_px = method.residual_sigma_px;
+  return problem;
+}
+
+std::int64_t energy_of(const RetargetEntry& entry, const Source& source, const Grid<Offset>& move,
+                       const RetargetOptions& options) {
+  if (!entry.anneal) return retarget_energy(source.levels[0].value, move, options);
+  AnnealProblem problem = anneal_problem(entry, source);
+  problem.retarget = options;
+  return anneal_energy(problem, move);
+}
+
+std::vector<std::int64_t> anneal_bounds(const AnnealProblem& problem, int motion, double gap,
+                                        const Execution& execution) {
+  const std::size_t side = static_cast<std::size_t>(2 * motion + 1);
+  std::vector<std::int64_t> bounds(side * side, 0);
+  if (problem.residual_sigma_px > 0.0) return bounds;
+  RetargetOptions options = problem.retarget;
+  options.gap = gap;
+  Execution silent = execution;
+  silent.progress = {};
+  for (const AnnealChannel& channel : problem.channels) {
+    const std::vector<RetargetTile> proofs = solve_motion_set(channel.levels, options, motion, silent);
+    for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] += channel.weight * proofs[i].lower_bound;
+  }
+  return bounds;
+}
+
+std::vector<RetargetTile> anneal_tiles(const RetargetEntry& entry, const Source& source,
+                                       const Execution& execution) {
+  const AnnealMethod& method = *entry.anneal;
+  const AnnealProblem problem = anneal_problem(entry, source);
+  AnnealOptions options = method.options;
+  options.checkpoint = {};
+  if (!method.checkpoint.empty()) {
+    options.checkpoint.resume = read_checkpoint(method.checkpoint);
+    options.checkpoint.save = [&](std::string_view bytes) { write_text_file(method.checkpoint, bytes); };
+  }
+  std::vector<AnnealResult> results = naming_checkpoint(method.checkpoint, [&] {
+    if (entry.motion > 0) return anneal_motion_set(problem, options, entry.motion, execution);
+    std::vector<AnnealResult> one;
+    one.push_back(anneal_retarget(problem, options, execution, method.trace));
+    return one;
+  });
+  // A certificate within 1 % comes soon.
+  const std::vector<std::int64_t> bounds = anneal_bounds(problem, entry.motion, 0.01, execution);
+  std::vector<RetargetTile> tiles;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    results[i].tile.lower_bound = bounds[i];
+    tiles.push_back(std::move(results[i].tile));
+  }
+  return tiles;
+}
+
+RetargetEntry with_budget_found(const RetargetEntry& entry, const Source& source,
+                                const Execution& execution) {
+  RetargetEntry found = entry;
+  AnnealMethod& method = *found.anneal;
+  const std::string checkpoint = read_checkpoint(method.checkpoint);
+  if (!checkpoint.empty()) {
+    method.options.proposals =
+        naming_checkpoint(method.checkpoint, [&] { return checkpoint_proposals(checkpoint); });
+  } else {
+    Execution silent = execution;
+    silent.progress = {};
+    if (entry.motion > 0) silent.threads = 1;
+    method.options.proposals =
+        proposals_for(method.seconds, anneal_problem(entry, source), method.options, silent);
+  }
+  method.seconds = 0.0;
+  return found;
+}
+
+}  // namespace bn
