@@ -14,6 +14,7 @@ namespace bn::ui {
 namespace {
 
 constexpr double kMaxZoom = 256.0;
+constexpr double kOverlayZoom = 10.0;  ///< pixels a texel from which an overlay can be read
 constexpr int kHistogramBars = 128;
 
 std::string number(float value) {
@@ -152,6 +153,20 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
     list.AddImage(texture_.id(), screen(first * w, first * h), screen(last * w, last * h),
                   {static_cast<float>(first), static_cast<float>(first)},
                   {static_cast<float>(last), static_cast<float>(last)});
+    if (picture_.overlay && zoom >= kOverlayZoom) {
+      const auto [left, top] = texel_at(corner);
+      const auto [right, bottom] = texel_at(far_corner);
+      const auto limit = [&](double v, double side) {
+        return std::clamp(std::floor(v), first * side, last * side - 1.0);
+      };
+      for (double y = limit(top, h); y <= limit(bottom, h); ++y) {
+        for (double x = limit(left, w); x <= limit(right, w); ++x) {
+          picture_.overlay(list, wrap(static_cast<std::int64_t>(x), picture_.size.width),
+                           wrap(static_cast<std::int64_t>(y), picture_.size.height), screen(x, y),
+                           static_cast<float>(zoom));
+        }
+      }
+    }
     if (hovered) {
       const auto [x, y] = texel_at(io.MousePos);
       const bool inside = x >= first * w && x < last * w && y >= first * h && y < last * h;

@@ -26,6 +26,8 @@ struct Picture {
   float high = 255.0f;        ///< ... and the white one
   /// Not empty: shown as it is (IM_COL32 a pixel) in place of the values, without range control.
   std::vector<std::uint32_t> colours = {};
+  /// Drawn over each texel that is large enough to hold it: `corner` on the screen, `size` pixels wide.
+  std::function<void(ImDrawList& list, int x, int y, ImVec2 corner, float size)> overlay = {};
   /// What to say of a pixel; empty: its values.
   std::function<std::string(int x, int y)> describe = {};
 };

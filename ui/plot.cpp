@@ -153,10 +153,10 @@ void draw_curve(const Canvas& c, const Figure& figure, const Curve& curve) {
   flush();
 }
 
-/// The point of a curve nearest in x. None: it has none.
+/// The point of a curve nearest in x, from its first to its last. None: x is beyond them.
 std::optional<std::size_t> nearest(const Curve& curve, double x) {
   const std::size_t count = std::min(curve.x.size(), curve.y.size());
-  if (count == 0) return {};
+  if (count == 0 || x < curve.x.front() || x > curve.x[count - 1]) return {};
   const auto end = curve.x.begin() + static_cast<std::ptrdiff_t>(count);
   auto at = std::lower_bound(curve.x.begin(), end, x);
   if (at == end || (at != curve.x.begin() && x - *(at - 1) < *at - x)) --at;
@@ -326,7 +326,11 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
                       {corner.x + area.x - bar, corner.y + area.y - text - em(0.4f)},
                       Scale(figure.x.logarithmic, x),
                       Scale(figure.y.logarithmic, y)};
-  draw_axes(canvas, figure, y_ticks, x);
+  if (fitting.points > 0) {
+    draw_axes(canvas, figure, y_ticks, x);
+  } else {
+    list.AddRectFilled(canvas.min, canvas.max, p.background);  // numbers of nothing would mean nothing
+  }
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
   const bool inside = hovered && mouse.x >= canvas.min.x && mouse.x <= canvas.max.x &&

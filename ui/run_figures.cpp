@@ -48,8 +48,12 @@ void span_budget(Figure& figure, std::span<const DrawnRun> runs, Over over) {
   figure.x.name = over == Over::proposals ? "proposals" : "seconds";
   if (over == Over::seconds) return;
   double most = 0.0;
-  for (const DrawnRun& r : runs)
-    most = std::max(most, static_cast<double>(r.entry->run->setup().options.proposals));
+  for (const DrawnRun& r : runs) {
+    const Standing standing = r.entry->run->standing();
+    const bool goes_on = standing.phase < Phase::finished;
+    most = std::max(most, static_cast<double>(goes_on ? r.entry->run->setup().options.proposals
+                                                      : standing.state.proposals));
+  }
   if (most > 0.0) figure.x.high = most;
 }
 

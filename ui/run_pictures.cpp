@@ -90,6 +90,23 @@ Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options)
     picture.values.push_back(static_cast<float>(r.x));
     picture.values.push_back(static_cast<float>(r.y));
   }
+  picture.overlay = [move, m, reach](ImDrawList& list, int x, int y, ImVec2 corner, float size) {
+    const Offset r = move(x, y);
+    const float dx = static_cast<float>(r.x - m.x), dy = static_cast<float>(r.y - m.y),
+                length = std::hypot(dx, dy);
+    const ImVec2 middle{corner.x + 0.5f * size, corner.y + 0.5f * size};
+    const ImU32 ink = IM_COL32(0, 0, 0, 200);
+    if (length == 0.0f) return list.AddCircleFilled(middle, 0.08f * size, ink);
+    // As long as the move is far, so that an arrow stays in its texel.
+    const float half = size * (0.12f + 0.3f * std::min(1.0f, length / reach)), ux = dx / length,
+                uy = dy / length;
+    const auto at = [&](float along, float across) {
+      return ImVec2(middle.x + ux * along - uy * across, middle.y + uy * along + ux * across);
+    };
+    const float head = 0.5f * half;
+    list.AddLine(at(-half, 0), at(half - head, 0), ink, std::max(1.0f, 0.06f * size));
+    list.AddTriangleFilled(at(half, 0), at(half - head, 0.6f * head), at(half - head, -0.6f * head), ink);
+  };
   return picture;
 }
 

@@ -41,6 +41,11 @@ std::string time_text(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
+std::string percent_text(const std::optional<double>& percent) {
+  if (!percent) return "–";
+  return *percent < 1000.0 ? fmt::format("{:.1f} %", *percent) : fmt::format("{:.0f} %", *percent);
+}
+
 /// A figure under its name.
 void figure_cell(const char* name, const std::string& text) {
   ImGui::BeginGroup();
@@ -210,7 +215,7 @@ void RunView::draw_standing() {
       {"State", entry_ ? phase_name(standing.phase) : "no run yet"},
       {"Energy", any ? fmt::format("{}{}", energy, percent_of_start(energy)) : "–"},
       {"Optimum", bound},
-      {"Gap", gap ? fmt::format("{:.1f} %", *gap) : "–"},
+      {"Gap", percent_text(gap)},
       {"Temperature", any ? fmt::format("{:.4g}", state.temperature) : "–"},
       {"Accepted", any && state.proposals > 0
                        ? fmt::format("{:.2f} %", 100.0 * static_cast<double>(state.accepted) /
@@ -220,7 +225,7 @@ void RunView::draw_standing() {
        standing.proposals_per_second > 0 ? short_number(standing.proposals_per_second, 3) + "/s" : "–"},
       {"Time", any ? time_text(state.seconds) : "–"},
       {"Left", standing.seconds_left ? time_text(*standing.seconds_left) : "–"}};
-  constexpr float kWidths[] = {5.5f, 9.5f, 5.5f, 4.5f, 6.5f, 5.5f, 6.0f, 5.0f, 5.0f};
+  constexpr float kWidths[] = {5.5f, 9.5f, 5.5f, 5.0f, 6.5f, 5.5f, 6.0f, 5.0f, 5.0f};
   // Where each cell stands, so that the panel is as high as they need.
   const ImGuiStyle& style = ImGui::GetStyle();
   const float room = ImGui::GetContentRegionAvail().x - 2 * style.WindowPadding.x;
