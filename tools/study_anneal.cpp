@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -18,14 +19,20 @@
 namespace bn::tools {
 namespace {
 
+/// What may be measured alone.
+enum class Part { all, runs, traces, throughput, costs, motions };
+
 struct Settings {
   std::filesystem::path image;
   std::filesystem::path out = "study-anneal";
   int channel = 0;
   std::optional<Offset> step;
-  int radius = 6;
+  std::vector<int> radii = {6};
   int seeds = 5;
   int budgets = 9;
+  Part part = Part::all;
+
+  bool wants(Part one) const { return part == Part::all || part == one; }
 };
 
 /// One schedule at one radius and budget, over the seeds.
@@ -121,7 +128,10 @@ std::string table(const AnnealStudy& study, const std::map<SummaryKey, Summary>&
       "| result | energy | of the start | above the optimum | time |\n|---|---:|---:|---:|---:|\n"
       "| published annealing (Ryzen 5 2600X, one thread) | 10714 | 3.08 % | 194.5 % | 17.07 min |\n"
       "| published annealing, longer | 9444 | 2.71 % | 159.6 % | 35.36 min |\n"
-      "| peers: 1,386 swaps/s; with its copies removed 48,000 | - | - | - | - |\n";
+      // The published code makes 1,386 swaps a second as it is, 48,000 without its copies: the same answers
+      // sooner.
+      "| peers: that code, its copies removed | 10714 | 3.08 % | 194.5 % | 30 s |\n"
+      "| peers: the same, longer | 9444 | 2.71 % | 159.6 % | 61 s |\n";
   const auto& exact = study.exact.front();
   const auto share = [&](double energy) {
     return 100.0 * energy / static_cast<double>(std::max<std::int64_t>(1, exact.start_energy));
@@ -140,9 +150,130 @@ std::string table(const AnnealStudy& study, const std::map<SummaryKey, Summary>&
   return text;
 }
 
+/// What all parts work on.
+struct Subject {
+  AnnealProblem problem;
+  std::vector<std::string> schedules;
+  std::vector<std::int64_t> budgets;
+};
+
+Subject subject_of(const Settings& settings, const Execution& execution) {
+  Subject subject;
+  const Image image = read_image(settings.image, execution).image;
+  subject.problem.channels = {{levels_of_channel(image, settings.channel).value}};
+  const Extent size = subject.problem.channels[0].levels.size();
+  subject.problem.retarget.step = settings.step ? *settings.step : auto_step(size).step;
+  subject.problem.retarget.radius = settings.radii.front();
+  for (const auto name : schedule_names()) {
+    if (name != "constant") subject.schedules.emplace_back(name);
+  }
+  // Half decades from 1e6 on.
+  for (int i = 0; i < settings.budgets; ++i) {
+    subject.budgets.push_back(static_cast<std::int64_t>(std::llround(std::pow(10.0, 6.0 + 0.5 * i))));
+  }
+  return subject;
+}
+
+void measure_runs(const Settings& settings, const Subject& subject, Session& session) {
+  AnnealStudyOptions options;
+  options.retarget = subject.problem.retarget;
+  options.schedules = subject.schedules;
+  options.budgets = subject.budgets;
+  options.radii = settings.radii;
+  options.seeds = settings.seeds;
+  const AnnealStudy study =
+      study_anneal(subject.problem.channels[0].levels, options, session.execution_showing("anneal"));
+  session.progress.finish();
+  const auto summaries = summarise(study, options.schedules);
+  write_text_file(settings.out / "runs.csv", runs_csv(study));
+  write_text_file(settings.out / "medians.csv", medians_csv(study, summaries, options.schedules));
+  const std::string markdown = table(study, summaries, options.schedules);
+  write_text_file(settings.out / "table.md", markdown);
+  session.output.write(markdown);
+}
+
+void measure_traces(const Settings& settings, const Subject& subject, Session& session) {
+  session.progress.start("traces");
+  Execution alone = session.execution;
+  alone.threads = 1;
+  const std::int64_t optimum =
+      solve_retarget(subject.problem.channels[0].levels, subject.problem.retarget, alone).energy;
+  AnnealOptions run;
+  run.proposals = subject.budgets.back();
+  for (const auto& schedule : subject.schedules) {
+    run.schedule = schedule;
+    AnnealTrace trace;
+    anneal_retarget(subject.problem, run, alone, &trace);
+    write_text_file(settings.out / ("trace_" + schedule + ".csv"), trace.csv(optimum));
+  }
+  // From a start that accepts nearly everything, so that the surface shows all of the way down.
+  run.schedule = "exponential";
+  run.start.rule = StartTemperature::Rule::everything;
+  AnnealTrace hot_trace;
+  anneal_retarget(subject.problem, run, alone, &hot_trace);
+  write_text_file(settings.out / "surface.csv", surface_csv(hot_trace, run.proposals));
+  session.progress.finish();
+}
+
+void measure_throughput(const Settings& settings, Session& session) {
+  session.progress.start("throughput");
+  std::string text = "engine,side,threads,temperature,proposals_per_second\n";
+  for (const auto& row : study_anneal_throughput(session.execution)) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{:.4g}\n", row.engine, row.side, row.threads,
+                   row.temperature, row.proposals_per_second);
+  }
+  session.progress.finish();
+  write_text_file(settings.out / "throughput.csv", text);
+  session.output.write(text);
+}
+
+void measure_costs(const Settings& settings, const Subject& subject, Session& session) {
+  session.progress.start("costs");
+  const auto file = settings.out / "costs.checkpoint";
+  const AnnealCosts costs = study_anneal_costs(
+      subject.problem, [&](std::string_view bytes) { write_text_file(file, bytes); }, session.execution);
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  session.progress.finish();
+  write_text_file(settings.out / "costs.csv", fmt::format("what,share\ntrace,{:.5f}\ncheckpoints,{:.6f}\n",
+                                                          costs.trace, costs.checkpoints));
+  session.output.write(fmt::format("trace {:.2f} %, checkpoints {:.3f} % ({:.2g} ms and {} bytes each)\n",
+                                   100.0 * costs.trace, 100.0 * costs.checkpoints, 1e3 * costs.save_seconds,
+                                   costs.checkpoint_bytes));
+}
+
+/// All 81 motions, on all threads, by the clock on the wall.
+void measure_motions(const Settings& settings, const Subject& subject, Session& session) {
+  constexpr int kRange = 4, kSide = 2 * kRange + 1;
+  const AnnealOptions run;
+  const auto start = std::chrono::steady_clock::now();
+  const auto results =
+      anneal_motion_set(subject.problem, run, kRange, session.execution_showing("81 motions"));
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  session.progress.finish();
+  std::string text = "motion_x,motion_y,start_energy,energy\n";
+  double worst = 0.0;
+  std::int64_t least = results.front().tile.energy, most = least;
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const RetargetTile& tile = results[i].tile;
+    const int index = static_cast<int>(i);
+    fmt::format_to(std::back_inserter(text), "{},{},{},{}\n", index % kSide - kRange, index / kSide - kRange,
+                   tile.start_energy, tile.energy);
+    worst = std::max(worst, static_cast<double>(tile.energy) /
+                                static_cast<double>(std::max<std::int64_t>(1, tile.start_energy)));
+    least = std::min(least, tile.energy);
+    most = std::max(most, tile.energy);
+  }
+  write_text_file(settings.out / "motions.csv", text);
+  session.output.write(
+      fmt::format("81 motions, {:.0e} proposals each: {}..{}, at worst {:.3f} % of the start, {:.1f} s on {} "
+                  "threads\n",
+                  static_cast<double>(run.proposals), least, most, 100.0 * worst, seconds,
+                  thread_count(session.execution)));
+}
+
 void run(const Settings& settings, Session& session) {
-  const Image image = read_image(settings.image, session.execution).image;
-  const Grid<std::int32_t> levels = levels_of_channel(image, settings.channel).value;
+  const Subject subject = subject_of(settings, session.execution);
   std::error_code failed;
   std::filesystem::create_directories(settings.out, failed);
   if (failed) {
@@ -152,60 +283,11 @@ void run(const Settings& settings, Session& session) {
                  .limit = "",
                  .remedy = "choose a folder you may write to"});
   }
-
-  AnnealStudyOptions options;
-  options.retarget.step = settings.step ? *settings.step : auto_step(levels.size()).step;
-  for (const auto name : schedule_names()) {
-    if (name != "constant") options.schedules.emplace_back(name);
-  }
-  // Half decades from 1e6 on.
-  for (int i = 0; i < settings.budgets; ++i) {
-    options.budgets.push_back(static_cast<std::int64_t>(std::llround(std::pow(10.0, 6.0 + 0.5 * i))));
-  }
-  options.radii = {settings.radius};
-  options.seeds = settings.seeds;
-  const AnnealStudy study = study_anneal(levels, options, session.execution_showing("anneal"));
-  const auto summaries = summarise(study, options.schedules);
-
-  session.progress.start("traces");
-  Execution alone = session.execution;
-  alone.threads = 1;
-  AnnealProblem problem;
-  problem.channels = {{levels}};
-  problem.retarget = options.retarget;
-  problem.retarget.radius = settings.radius;
-  for (const auto& schedule : options.schedules) {
-    AnnealOptions one;
-    one.schedule = schedule;
-    one.proposals = options.budgets.back();
-    AnnealTrace trace;
-    anneal_retarget(problem, one, alone, &trace);
-    write_text_file(settings.out / ("trace_" + schedule + ".csv"), trace.csv(study.exact.front().energy));
-  }
-  // From a start that accepts nearly everything, so that the surface shows all of the way down.
-  AnnealOptions hot;
-  hot.proposals = options.budgets.back();
-  hot.start.rule = StartTemperature::Rule::everything;
-  AnnealTrace hot_trace;
-  anneal_retarget(problem, hot, alone, &hot_trace);
-  write_text_file(settings.out / "surface.csv", surface_csv(hot_trace, hot.proposals));
-
-  session.progress.start("throughput");
-  std::vector<int> threads;
-  for (int count = 1; count <= thread_count(session.execution); count *= 2) threads.push_back(count);
-  std::string throughput = "side,threads,proposals,seconds,cpu_seconds\n";
-  for (const auto& row : study_anneal_throughput({64, 256, 512}, threads, session.execution)) {
-    fmt::format_to(std::back_inserter(throughput), "{},{},{},{:.4f},{:.4f}\n", row.side, row.threads,
-                   row.proposals, row.seconds, row.cpu_seconds);
-  }
-  session.progress.finish();
-
-  write_text_file(settings.out / "runs.csv", runs_csv(study));
-  write_text_file(settings.out / "medians.csv", medians_csv(study, summaries, options.schedules));
-  write_text_file(settings.out / "throughput.csv", throughput);
-  const std::string markdown = table(study, summaries, options.schedules);
-  write_text_file(settings.out / "table.md", markdown);
-  session.output.write(markdown);
+  if (settings.wants(Part::runs)) measure_runs(settings, subject, session);
+  if (settings.wants(Part::traces)) measure_traces(settings, subject, session);
+  if (settings.wants(Part::throughput)) measure_throughput(settings, session);
+  if (settings.wants(Part::costs)) measure_costs(settings, subject, session);
+  if (settings.wants(Part::motions)) measure_motions(settings, subject, session);
   session.progress.note(
       fmt::format("figures: cd {} && gnuplot scripts/gnuplot/anneal.gp", settings.out.string()));
 }
@@ -219,25 +301,36 @@ Verb study_anneal_verb() {
   verb.summary = "Measure annealing's schedules against the proven optimum.";
   verb.examples = {
       {"bn study anneal mask.png --step 48,36 -o study", "the data of docs/annealing.md, about ten minutes"},
+      {"bn study anneal mask.png --part throughput -o study", "proposals a second only, ten seconds"},
       {"cd study && gnuplot ../scripts/gnuplot/anneal.gp", "its figures, as SVG"}};
   verb.details =
       "Anneals one channel by every schedule with budgets from a million proposals upwards, several seeds "
-      "each, and "
-      "solves it exactly. Runs are made one after another on one thread; times are processor time. Writes "
-      "runs.csv, "
-      "medians.csv, a trace of each schedule, surface.csv (acceptance over step and worsening), "
-      "throughput.csv "
-      "(threads) and table.md, which is also printed.";
+      "and "
+      "radii each, and solves each radius exactly. Runs are made one after another on one thread; times are "
+      "processor time. Writes runs.csv, medians.csv and table.md (printed too). traces: a trace of each "
+      "schedule, "
+      "and surface.csv (acceptance over step and worsening). throughput: proposals a second by engine, "
+      "temperature and threads, throughput.csv. costs: of a trace and of checkpoints, costs.csv. motions: "
+      "all 81, "
+      "by the clock on the wall, motions.csv.";
   verb.arguments.positional("IMAGE", settings->image, file_path(),
                             "The mask: any image that OpenImageIO reads.");
   verb.arguments.option("--channel", settings->channel, integer_in(0, 63), "The channel to use, 0 for red.");
   verb.arguments.option("--step", settings->step, offset_or_auto(),
                         "How far the mask moves from frame to frame.");
-  verb.arguments.option("--radius", settings->radius, integer_in(1, 32),
-                        "The farthest a seed may move, in pixels.");
+  verb.arguments.option("--radii", settings->radii, integer_list(1, 32, 16),
+                        "The farthest a seed may move, in pixels; traces and motions take the first.");
   verb.arguments.option("--seeds", settings->seeds, integer_in(1, 100), "Runs of each setting.");
   verb.arguments.option("--budgets", settings->budgets, integer_in(1, 11),
                         "How many budgets: 1e6 proposals, then half a decade more each.");
+  verb.arguments.option("--part", settings->part,
+                        choice_of<Part>({{"all", Part::all},
+                                         {"runs", Part::runs},
+                                         {"traces", Part::traces},
+                                         {"throughput", Part::throughput},
+                                         {"costs", Part::costs},
+                                         {"motions", Part::motions}}),
+                        "Measure one part alone.");
   verb.arguments.option("--out", settings->out, folder_path(), "The folder to write; made if missing.", "-o");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;

@@ -64,22 +64,25 @@ void for_each_number(Record& r, Visit&& visit) {
   for (auto* field : {&r.round, &r.proposals, &r.accepted, &r.best_energy}) visit(*field);
 }
 
-void put(std::string& bytes, const Grid<Offset>& placement) {
-  for (const Offset k : placement) {
+void put(std::string& bytes, const Placement& placement) {
+  for (const Offset k : placement.xy) {
     bytes.push_back(static_cast<char>(k.x));
     bytes.push_back(static_cast<char>(k.y));
   }
+  for (const std::int8_t z : placement.z) bytes.push_back(static_cast<char>(z));
 }
 
-Grid<Offset> take_placement(Reader& reader, const AnnealInstance& instance) {
-  Grid<Offset> placement(instance.size);
-  const std::string_view bytes = reader.take(2 * placement.count());
-  for (std::size_t i = 0; i < placement.count(); ++i) {
-    placement[i] = {static_cast<signed char>(bytes[2 * i]), static_cast<signed char>(bytes[2 * i + 1])};
+Placement take_placement(Reader& reader, const AnnealInstance& instance) {
+  Placement placement = instance.identity();
+  const std::string_view bytes = reader.take(2 * placement.xy.count());
+  for (std::size_t i = 0; i < placement.xy.count(); ++i) {
+    placement.xy[i] = {static_cast<signed char>(bytes[2 * i]), static_cast<signed char>(bytes[2 * i + 1])};
   }
+  const std::string_view deep = reader.take(placement.z.count());
+  for (std::size_t i = 0; i < placement.z.count(); ++i) placement.z[i] = static_cast<std::int8_t>(deep[i]);
   // The hash guards against accidents; this one keeps a forged file from breaking a promise.
   try {
-    check_permutation(instance.moves_of(placement), instance.options);
+    instance.check_moves(instance.moves_of(placement));
   } catch (const Error& error) {
     refuse(std::string("its placement is none: ") + error.what(), "start afresh");
   }
@@ -152,6 +155,7 @@ std::uint64_t fingerprint_of(const AnnealProblem& problem, const AnnealOptions& 
     put(text,
         std::uint64_t{XXH3_64bits(channel.levels.data(), channel.levels.count() * sizeof(std::int32_t))});
   }
+  put(text, std::int64_t{problem.depth}), put(text, std::int64_t{problem.step_z});
   const RetargetOptions& r = problem.retarget;
   for (const int value :
        {r.step.x, r.step.y, r.motion.x, r.motion.y, r.radius, static_cast<int>(r.reach),

@@ -3,7 +3,8 @@
 //
 // Layout, all integers little-endian 64 bit: magic, version, fingerprint of problem and options, budget,
 // number of chains, beats done; per chain the fields of ChainRecord, then its placements now and best, one
-// signed byte per axis and pixel; last an XXH3 of all before. Anything else is refused whole.
+// signed byte per axis and pixel (all x and y, then a volume's z); last an XXH3 of all before. Anything else
+// is refused whole.
 //
 // A motion set's checkpoint holds those of its variants, the finished ones' too (they resume to their end
 // at once): another magic, version, fingerprint, budget, number of variants; of each its length, 0 if it has
@@ -27,8 +28,8 @@ struct ChainRecord {
   std::int64_t proposals = 0;
   std::int64_t accepted = 0;
   std::int64_t best_energy = 0;
-  Grid<Offset> now;
-  Grid<Offset> best;
+  Placement now;
+  Placement best;
 };
 
 struct RunRecord {

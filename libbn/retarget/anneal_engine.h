@@ -51,12 +51,12 @@ class AnnealEngine {
   /// The running energy: kept by adding changes, always equal to the recomputed one.
   virtual std::int64_t energy() const = 0;
   /// The displacement k of the seed at each position.
-  virtual Grid<Offset> displacements() const = 0;
+  virtual Placement displacements() const = 0;
   /// Remembers the placement of now, in place of the one before; kept() gives it back.
   virtual void keep() = 0;
-  virtual Grid<Offset> kept() const = 0;
+  virtual Placement kept() const = 0;
   /// Continues from there: a valid placement, as displacements() gives.
-  virtual void place(const Grid<Offset>& displacement_at) = 0;
+  virtual void place(const Placement& displacement_at) = 0;
 };
 
 /// The engine for this instance's energy, in the identity k = 0. `instance` must outlive it.

@@ -15,19 +15,34 @@ namespace {
 /// measured (docs/annealing.md).
 int default_swap_distance(int radius) { return (5 * radius + 2) / 3; }
 
-std::vector<Offset> swap_displacements(Extent size, const RetargetOptions& options, int distance) {
+std::vector<Shift> swap_displacements(Extent slice, int depth, const RetargetOptions& options, int distance) {
   // Two seeds whose origins reach both positions are at most two radii apart.
-  const int x_limit = std::min(distance, size.width - 1), y_limit = std::min(distance, size.height - 1);
-  const int diameter = 2 * options.radius;
-  std::vector<Offset> result;
+  const int x_limit = std::min(distance, slice.width - 1), y_limit = std::min(distance, slice.height - 1),
+            z_limit = std::min(distance, depth - 1);
+  RetargetOptions diameter = options;
+  diameter.radius = 2 * options.radius;
+  std::vector<Shift> result;
   for (int x = 0; x <= x_limit; ++x) {
     for (int y = -y_limit; y <= y_limit; ++y) {
-      if (x == 0 && y <= 0) continue;
-      // Along a row of the torus, x and width - x pair the same seeds; kernels count on the shorter one.
-      if (y == 0 && options.wrap && 2 * x > size.width) continue;
-      if (options.reach == Reach::euclidean && x * x + y * y > diameter * diameter) continue;
-      result.push_back({x, y});
+      for (int z = -z_limit; z <= z_limit; ++z) {
+        if (x == 0 && (y < 0 || (y == 0 && z <= 0))) continue;
+        // Along a row of the torus, x and width - x pair the same seeds; kernels count on the shorter one.
+        if (y == 0 && z == 0 && options.wrap && 2 * x > slice.width) continue;
+        if (!within_reach(Shift{x, y, z}, diameter)) continue;
+        result.push_back({x, y, z});
+      }
     }
+  }
+  return result;
+}
+
+/// result(q) = levels(q + offset), on the torus of the instance.
+Grid<std::int32_t> shifted(const AnnealInstance& instance, const Grid<std::int32_t>& levels, Shift offset) {
+  Grid<std::int32_t> result(levels.size());
+  for (std::size_t q = 0; q < levels.count(); ++q) {
+    const Shift at = instance.position(q);
+    result[q] = levels[instance.index(std::int64_t{at.x} + offset.x, std::int64_t{at.y} + offset.y,
+                                      std::int64_t{at.z} + offset.z)];
   }
   return result;
 }
@@ -35,7 +50,7 @@ std::vector<Offset> swap_displacements(Extent size, const RetargetOptions& optio
 }  // namespace
 
 AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_px)
-    : options(problem.retarget), residual_sigma_px(problem.residual_sigma_px) {
+    : depth(problem.depth), options(problem.retarget), residual_sigma_px(problem.residual_sigma_px) {
   check_options(options);
   constexpr std::size_t kMaxChannels = 16;
   if (problem.channels.empty() || problem.channels.size() > kMaxChannels) {
@@ -48,6 +63,12 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
     refuse("size", fmt::format("{}x{}", size.width, size.height),
            fmt::format("sides of 1..{} pixels", kMaxSide));
   }
+  if (depth < 1 || depth > kMaxSide || size.height % depth != 0) {
+    refuse("depth", fmt::format("{} slices in {} rows", depth, size.height),
+           fmt::format("1..{}, a divisor of the levels' height", kMaxSide));
+  }
+  slice = {size.width, size.height / depth};
+  step_z = wrap(problem.step_z, depth);
   if (swap_distance_px < 0 || swap_distance_px > 2 * options.radius) {
     refuse("swap_distance", fmt::format("{} pixels", swap_distance_px),
            fmt::format("1..{}, twice the radius; 0 for the default", 2 * options.radius));
@@ -57,6 +78,8 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
     refuse("residual_sigma", fmt::format("{} pixels", residual_sigma_px),
            "0 for no filter, or 0.3..8 pixels");
   }
+  if (filtered && depth > 1)
+    refuse("residual_sigma", "a filtered residual of a volume", "only of flat tiles");
   if (filtered && options.metric != Metric::l2) {
     refuse("metric", "a filtered residual with the metric l1", "l2", "set the metric to l2");
   }
@@ -84,37 +107,68 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
     Grid<std::int32_t> levels = channel.levels;
     const std::int32_t least = *std::min_element(levels.begin(), levels.end());
     for (std::int32_t& level : levels) level -= least;
-    seed_level.push_back(shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y}));
-    landing_level.push_back(shifted(levels, options.motion.x, options.motion.y));
+    const Shift step{wrap(options.step.x, slice.width), wrap(options.step.y, slice.height), step_z};
+    seed_level.push_back(shifted(*this, levels, {-step.x, -step.y, -step.z}));
+    landing_level.push_back(shifted(*this, levels, {options.motion.x, options.motion.y, 0}));
     weight.push_back(channel.weight);
   }
   const int distance = swap_distance_px == 0 ? default_swap_distance(options.radius) : swap_distance_px;
-  displacements = swap_displacements(size, options, distance);
+  displacements = swap_displacements(slice, depth, options, distance);
 }
 
-Grid<Offset> AnnealInstance::moves_of(const Grid<Offset>& displacement_at) const {
-  Grid<Offset> move(size);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const Offset k = displacement_at(x, y);
-      move(wrap(std::int64_t{x} - k.x - options.step.x, size.width),
-           wrap(std::int64_t{y} - k.y - options.step.y, size.height)) = {k.x + options.motion.x,
-                                                                         k.y + options.motion.y};
-    }
+Placement AnnealInstance::identity() const {
+  return {Grid<Offset>(size), depth > 1 ? Grid<std::int8_t>(size) : Grid<std::int8_t>()};
+}
+
+Placement AnnealInstance::moves_of(const Placement& displacement_at) const {
+  Placement move = identity();
+  for (std::size_t w = 0; w < displacement_at.xy.count(); ++w) {
+    const Shift at = position(w), k = displacement_at.at(w);
+    const std::size_t u = index(std::int64_t{at.x} - k.x - options.step.x,
+                                std::int64_t{at.y} - k.y - options.step.y, at.z - k.z - step_z);
+    move.set(u, {k.x + options.motion.x, k.y + options.motion.y, k.z});
   }
   return move;
 }
 
-Grid<Offset> AnnealInstance::displacements_of(const Grid<Offset>& move) const {
-  Grid<Offset> displacement_at(size);
-  for (int y = 0; y < size.height; ++y) {
-    for (int x = 0; x < size.width; ++x) {
-      const Offset k{move(x, y).x - options.motion.x, move(x, y).y - options.motion.y};
-      displacement_at(wrap(std::int64_t{x} + options.step.x + k.x, size.width),
-                      wrap(std::int64_t{y} + options.step.y + k.y, size.height)) = k;
-    }
+Placement AnnealInstance::displacements_of(const Placement& move) const {
+  Placement displacement_at = identity();
+  for (std::size_t u = 0; u < move.xy.count(); ++u) {
+    const Shift at = position(u), r = move.at(u);
+    const Shift k{r.x - options.motion.x, r.y - options.motion.y, r.z};
+    displacement_at.set(index(std::int64_t{at.x} + options.step.x + k.x,
+                              std::int64_t{at.y} + options.step.y + k.y, at.z + step_z + k.z),
+                        k);
   }
   return displacement_at;
+}
+
+void AnnealInstance::check_moves(const Placement& move) const {
+  if (depth == 1) return check_permutation(move.xy, options);
+  const auto fail = [&](std::size_t u, const std::string& what) {
+    const Shift at = position(u), r = move.at(u);
+    throw Error({.code = ErrorCode::verification_failed,
+                 .what = fmt::format("moves by ({}, {}, {}), {}", r.x, r.y, r.z, what),
+                 .where = fmt::format("pixel ({}, {}) of slice {}", at.x, at.y, at.z),
+                 .limit = fmt::format("a bijection, radius {}, {}", options.radius,
+                                      options.reach == Reach::euclidean ? "euclidean" : "chebyshev"),
+                 .remedy = ""});
+  };
+  std::vector<bool> taken(move.xy.count(), false);
+  for (std::size_t u = 0; u < move.xy.count(); ++u) {
+    const Shift at = position(u), r = move.at(u);
+    const Shift k{r.x - options.motion.x, r.y - options.motion.y, r.z};
+    if (!within_reach(k, options)) fail(u, "out of reach");
+    const int x = wrap(std::int64_t{at.x} + options.step.x, slice.width) + k.x,
+              y = wrap(std::int64_t{at.y} + options.step.y, slice.height) + k.y,
+              z = wrap(at.z + step_z, depth) + k.z;
+    const bool inside = x >= 0 && x < slice.width && y >= 0 && y < slice.height && z >= 0 && z < depth;
+    if (!options.wrap && !inside) fail(u, "across the border");
+    const std::size_t to =
+        index(std::int64_t{at.x} + r.x, std::int64_t{at.y} + r.y, std::int64_t{at.z} + r.z);
+    if (taken[to]) fail(u, "to where another seed goes");
+    taken[to] = true;
+  }
 }
 
 }  // namespace bn

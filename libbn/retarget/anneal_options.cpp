@@ -39,22 +39,27 @@ double temperature_for_acceptance(const AnnealInstance& instance, double wanted)
 
 /// The mean over pixels (at most 1024 of them, evenly spread) of the least cost a seed could have there.
 double mean_least_cost(const AnnealInstance& instance) {
-  const auto window = reach_rows(instance.size, instance.options);
-  const auto [width, height] = instance.size;
+  const auto window = reach_rows(instance.slice, instance.options);
+  const auto deep = std::min(instance.depth - 1, instance.options.radius);
   const std::int64_t pixels = instance.size.area(), samples = std::min<std::int64_t>(pixels, 1024);
   std::int64_t sum = 0;
   for (std::int64_t i = 0; i < samples; ++i) {
     const std::int64_t w = pixels * i / samples;
     std::int64_t least = kMaxAnnealEnergy;
-    for (const ReachRow& row : window) {
-      for (int x = row.x_low; x <= row.x_high; ++x) {
-        std::int64_t cost = 0;
-        for (std::size_t c = 0; c < instance.weight.size(); ++c) {
-          cost += instance.weight[c] *
-                  level_cost(instance.seed_level[c].torus(w % width - x, w / width - row.y),
-                             instance.landing_level[c][static_cast<std::size_t>(w)], instance.options.metric);
+    const Shift at = instance.position(static_cast<std::size_t>(w));
+    for (int z = -deep; z <= deep; ++z) {
+      for (const ReachRow& row : window) {
+        for (int x = row.x_low; x <= row.x_high; ++x) {
+          if (!within_reach(Shift{x, row.y, z}, instance.options)) continue;
+          const std::size_t from = instance.index(at.x - x, at.y - row.y, at.z - z);
+          std::int64_t cost = 0;
+          for (std::size_t c = 0; c < instance.weight.size(); ++c) {
+            cost += instance.weight[c] * level_cost(instance.seed_level[c][from],
+                                                    instance.landing_level[c][static_cast<std::size_t>(w)],
+                                                    instance.options.metric);
+          }
+          least = std::min(least, cost);
         }
-        least = std::min(least, cost);
       }
     }
     sum += least;

@@ -1,12 +1,15 @@
-// The measurements behind docs/annealing.md: schedules, budgets, seeds and radii against the proven optimum,
-// and throughput against threads. Runs are made one after another on one thread each, so that their times
-// compare.
+// The measurements behind docs/annealing.md: schedules, budgets, seeds and
+// radii against the proven optimum, and throughput against threads. Runs are
+// made one after another on one thread each, so that their times compare.
 
 #include <algorithm>
 #include <chrono>
 #include <ctime>
+#include <functional>
+#include <memory>
 
 #include "bn/anneal.h"
+#include "retarget/anneal_engine.h"
 
 namespace bn {
 namespace {
@@ -68,34 +71,136 @@ AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOpti
   return study;
 }
 
-std::vector<AnnealThroughput> study_anneal_throughput(const std::vector<int>& sides,
-                                                      const std::vector<int>& threads,
-                                                      const Execution& execution) {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+/// Structureless grey levels: annealing does not care for more.
+AnnealProblem grey_problem(int side) {
+  Grid<std::int32_t> levels({side, side});
+  for (std::size_t i = 0; i < levels.count(); ++i)
+    levels[i] = static_cast<std::int32_t>(random_bits(1, 1, i) & 255);
+  AnnealProblem problem;
+  problem.channels = {{std::move(levels)}};
+  problem.retarget.step = {side * 3 / 4, side * 9 / 16};
+  return problem;
+}
+
+/// An engine at one temperature, in equilibrium from a warm-up on.
+class Stretch {
+ public:
+  Stretch(std::unique_ptr<AnnealEngine> engine, double temperature, int threads)
+      : engine_(std::move(engine)), temperature_(temperature), execution_{.threads = threads} {
+    for (int i = 0; i < 10; ++i) engine_->round(round_++, kSweeps, 4.0 * temperature, execution_);
+    for (int i = 0; i < 10; ++i) engine_->round(round_++, kSweeps, temperature, execution_);
+  }
+  /// Proposals a second over some rounds.
+  double run(int rounds) {
+    std::int64_t proposals = 0;
+    const auto start = Clock::now();
+    for (int i = 0; i < rounds; ++i)
+      proposals += engine_->round(round_++, kSweeps, temperature_, execution_).proposals;
+    return static_cast<double>(proposals) / std::chrono::duration<double>(Clock::now() - start).count();
+  }
+
+ private:
+  static constexpr int kSweeps = 64;
+  std::unique_ptr<AnnealEngine> engine_;
+  double temperature_;
+  Execution execution_;
+  std::int64_t round_ = 0;
+};
+
+constexpr int kStretches = 11;
+
+}  // namespace
+
+std::vector<AnnealThroughput> study_anneal_throughput(const Execution& execution) {
   std::vector<AnnealThroughput> rows;
-  for (const int side : sides) {
-    AnnealProblem problem;
-    Grid<std::int32_t> levels({side, side});
-    for (std::size_t i = 0; i < levels.count(); ++i)
-      levels[i] = static_cast<std::int32_t>(random_bits(1, 1, i) & 255);
-    problem.channels = {{std::move(levels)}};
-    problem.retarget.step = {side * 3 / 4, side * 9 / 16};
-    for (const int count : threads) {
-      AnnealOptions run;
-      run.proposals = 2'000'000'000;
-      const Execution inside{
-          .threads = count, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
-      const double cpu = cpu_seconds();
-      const auto start = std::chrono::steady_clock::now();
-      const AnnealResult result = anneal_retarget(problem, run, inside);
-      rows.push_back(
-          {.side = side,
-           .threads = count,
-           .proposals = result.proposals,
-           .seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-           .cpu_seconds = cpu_seconds() - cpu});
+  const auto add = [&](Stretch& stretch, std::string engine, double temperature, int rounds) {
+    std::vector<double> speeds;
+    for (int i = 0; i < kStretches; ++i) {
+      throw_if_stopped(execution);
+      speeds.push_back(stretch.run(rounds));
     }
+    rows.push_back({std::move(engine), 256, 1, temperature, median(speeds)});
+  };
+  const AnnealProblem problem = grey_problem(256);
+  const AnnealInstance instance(problem, 0);
+  for (const double temperature : {30.0, 3.0, 0.5}) {
+    for (const std::string& name : instruction_sets()) {
+      use_instruction_set(name);
+      Stretch stretch(make_sweep_engine(instance, 1, 0), temperature, 1);
+      add(stretch, name, temperature, name == "SCALAR" ? 1 : 16);
+      use_instruction_set("");
+    }
+    Stretch stretch(make_scalar_engine(instance, 1, 0), temperature, 1);
+    add(stretch, "swap by swap", temperature, 1);
+  }
+  const AnnealProblem large = grey_problem(512);
+  const AnnealInstance large_instance(large, 0);
+  for (const double temperature : {3.0, 0.5}) {
+    std::vector<int> threads;
+    std::vector<Stretch> stretches;
+    for (int count = 1; count <= thread_count(execution); count *= 2) {
+      threads.push_back(count);
+      stretches.emplace_back(make_sweep_engine(large_instance, 1, 0), temperature, count);
+    }
+    std::vector<std::vector<double>> speeds(threads.size());
+    for (int i = 0; i < kStretches; ++i) {
+      throw_if_stopped(execution);
+      for (std::size_t t = 0; t < threads.size(); ++t) speeds[t].push_back(stretches[t].run(8));
+    }
+    for (std::size_t t = 0; t < threads.size(); ++t)
+      rows.push_back({instruction_sets().front(), 512, threads[t], temperature, median(speeds[t])});
   }
   return rows;
+}
+
+AnnealCosts study_anneal_costs(const AnnealProblem& problem,
+                               const std::function<void(std::string_view)>& save,
+                               const Execution& execution) {
+  const Execution alone{
+      .threads = 1, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
+  AnnealCosts costs;
+  AnnealOptions run;
+  run.proposals = 500'000'000;
+  const auto seconds_with = [&](AnnealTrace* trace) {
+    const double start = cpu_seconds();
+    anneal_retarget(problem, run, alone, trace);
+    return cpu_seconds() - start;
+  };
+  std::vector<double> ratios;
+  for (int i = 0; i < kStretches; ++i) {
+    // In both orders in turn, as the second of two runs tends to be the faster
+    // one.
+    AnnealTrace trace;
+    const double first = seconds_with(i % 2 == 0 ? &trace : nullptr);
+    const double second = seconds_with(i % 2 == 0 ? nullptr : &trace);
+    ratios.push_back(i % 2 == 0 ? first / second : second / first);
+  }
+  costs.trace = median(ratios) - 1.0;
+
+  std::vector<double> saves;
+  run.proposals = 200'000'000;
+  Annealing stepped(problem, run, alone);
+  for (int i = 0; i < kStretches; ++i) {
+    stepped.beat();
+    const auto start = Clock::now();
+    const std::string bytes = stepped.checkpoint();
+    save(bytes);
+    saves.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    costs.checkpoint_bytes = bytes.size();
+  }
+  costs.save_seconds = median(saves);
+  costs.checkpoints = costs.save_seconds / Checkpointing{}.interval_s;
+  return costs;
 }
 
 }  // namespace bn

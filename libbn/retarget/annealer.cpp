@@ -170,7 +170,22 @@ class Run {
     return state;
   }
 
-  Grid<Offset> move() const { return instance_.moves_of(chains_.front().engine->displacements()); }
+  Placement move() const { return instance_.moves_of(chains_.front().engine->displacements()); }
+
+  std::string checkpoint() const {
+    if (in_beat_) refuse("checkpoint", "asked for between sweeps", "after a beat", "finish the beat first");
+    RunRecord record{.proposals = options_.proposals, .beats = beats_, .chains = {}};
+    for (const Chain& chain : chains_) {
+      record.chains.push_back({.cooling = chain.cooling.progress(),
+                               .round = chain.round,
+                               .proposals = chain.proposals,
+                               .accepted = chain.accepted,
+                               .best_energy = chain.best_energy,
+                               .now = chain.engine->displacements(),
+                               .best = chain.engine->kept()});
+    }
+    return encode_checkpoint(fingerprint_, record);
+  }
 
   AnnealResult result() const {
     const Chain* best = &chains_.front();
@@ -181,8 +196,10 @@ class Run {
       result.accepted += chain.accepted;
       result.frozen = result.frozen || chain.cooling.frozen();
     }
-    result.tile.move = instance_.moves_of(best->engine->kept());
-    check_permutation(result.tile.move, instance_.options);
+    Placement move = instance_.moves_of(best->engine->kept());
+    instance_.check_moves(move);
+    result.tile.move = std::move(move.xy);
+    result.move_z = std::move(move.z);
     result.tile.start_energy = start_energy_;
     result.tile.energy = best->best_energy;
     result.tile.lower_bound = options_.lower_bound;
@@ -313,18 +330,7 @@ class Run {
   }
 
   void save() const {
-    if (!options_.checkpoint.save) return;
-    RunRecord record{.proposals = options_.proposals, .beats = beats_, .chains = {}};
-    for (const Chain& chain : chains_) {
-      record.chains.push_back({.cooling = chain.cooling.progress(),
-                               .round = chain.round,
-                               .proposals = chain.proposals,
-                               .accepted = chain.accepted,
-                               .best_energy = chain.best_energy,
-                               .now = chain.engine->displacements(),
-                               .best = chain.engine->kept()});
-    }
-    options_.checkpoint.save(encode_checkpoint(fingerprint_, record));
+    if (options_.checkpoint.save) options_.checkpoint.save(checkpoint());
   }
 
   void resume() {
@@ -364,15 +370,33 @@ class Run {
 
 }  // namespace
 
-std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move) {
+namespace {
+
+Placement checked_moves(const AnnealInstance& instance, const Grid<Offset>& move,
+                        const Grid<std::int8_t>& move_z) {
+  const bool right = move.size() == instance.size &&
+                     (instance.depth == 1 ? move_z.count() == 0 : move_z.size() == instance.size);
+  if (!right) refuse("move", "a tile of another size than the levels", "both of one size, a volume's z too");
+  Placement moves(move, move_z);
+  instance.check_moves(moves);
+  return moves;
+}
+
+}  // namespace
+
+std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move,
+                           const Grid<std::int8_t>& move_z) {
   const AnnealInstance instance(problem, 0);
-  if (move.size() != instance.size)
-    refuse("move", "a tile of another size than the levels", "both of one size");
-  check_permutation(move, problem.retarget);
+  const Placement moves = checked_moves(instance, move, move_z);
   // Engines compute the energy of a placement afresh.
   const auto engine = make_engine(instance, 0, 0);
-  engine->place(instance.displacements_of(move));
+  engine->place(instance.displacements_of(moves));
   return engine->energy();
+}
+
+void check_anneal_permutation(const AnnealProblem& problem, const Grid<Offset>& move,
+                              const Grid<std::int8_t>& move_z) {
+  checked_moves(AnnealInstance(problem, 0), move, move_z);
 }
 
 AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& options,
@@ -406,7 +430,9 @@ void Annealing::sweep() {
   if (!held_->run.done()) held_->run.sweep();
 }
 AnnealState Annealing::state() const { return held_->run.state(); }
-Grid<Offset> Annealing::move() const { return held_->run.move(); }
+std::string Annealing::checkpoint() const { return held_->run.checkpoint(); }
+Grid<Offset> Annealing::move() const { return held_->run.move().xy; }
+Grid<std::int8_t> Annealing::move_z() const { return held_->run.move().z; }
 AnnealResult Annealing::result() const { return held_->run.result(); }
 
 }  // namespace bn

@@ -122,7 +122,7 @@ class ScalarEngine final : public AnnealEngine {
  public:
   ScalarEngine(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain)
       : instance_(instance), seed_(seed), chain_(chain), model_(instance) {
-    place(Grid<Offset>(instance.size));
+    place(instance.identity());
   }
 
   RoundCounts sweeps(std::int64_t round, int first, int end, double temperature, const Execution&,
@@ -149,19 +149,15 @@ class ScalarEngine final : public AnnealEngine {
 
   std::int64_t energy() const override { return energy_; }
 
-  Grid<Offset> displacements() const override { return displacements_of(origin_); }
+  Placement displacements() const override { return displacements_of(origin_); }
   void keep() override { kept_ = origin_; }
-  Grid<Offset> kept() const override { return displacements_of(kept_); }
+  Placement kept() const override { return displacements_of(kept_); }
 
-  void place(const Grid<Offset>& displacement_at) override {
-    const auto [width, height] = instance_.size;
-    origin_.resize(displacement_at.count());
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const Offset k = displacement_at(x, y);
-        origin_[static_cast<std::size_t>(y) * width + x] =
-            wrap(std::int64_t{y} - k.y, height) * width + wrap(std::int64_t{x} - k.x, width);
-      }
+  void place(const Placement& displacement_at) override {
+    origin_.resize(displacement_at.xy.count());
+    for (std::size_t w = 0; w < origin_.size(); ++w) {
+      const Shift at = instance_.position(w), k = displacement_at.at(w);
+      origin_[w] = static_cast<std::int32_t>(instance_.index(at.x - k.x, at.y - k.y, at.z - k.z));
     }
     model_.place(origin_);
     energy_ = model_.energy();
@@ -170,19 +166,28 @@ class ScalarEngine final : public AnnealEngine {
  private:
   void propose(const std::array<std::uint32_t, 4>& draw, float temperature, RoundCounts& counts,
                WorseningCounts* worsenings) {
-    const auto [width, height] = instance_.size;
     const std::size_t p = random_below(draw[0], static_cast<std::uint32_t>(origin_.size()));
-    const Offset s =
+    const Shift s =
         instance_
             .displacements[random_below(draw[1], static_cast<std::uint32_t>(instance_.displacements.size()))];
     ++counts.proposals;
 
-    const int x = static_cast<int>(p) % width + s.x, y = static_cast<int>(p) / width + s.y;
-    if (!instance_.options.wrap && (x >= width || y < 0 || y >= height)) return;
-    const std::size_t q =
-        static_cast<std::size_t>(wrap(y, height)) * width + static_cast<std::size_t>(wrap(x, width));
-    if (!within_reach(displacement(p, origin_[q]), instance_.options)) return;
-    if (!within_reach(displacement(q, origin_[p]), instance_.options)) return;
+    const Shift at = position(p);
+    int x = at.x + s.x, y = at.y + s.y, z = at.z + s.z;
+    const auto [width, height] = instance_.slice;
+    const int depth = instance_.depth;
+    if (!instance_.options.wrap && (x >= width || y < 0 || y >= height || z < 0 || z >= depth)) return;
+    // No s is longer than a side.
+    if (x >= width) x -= width;
+    if (y >= height) y -= height;
+    if (y < 0) y += height;
+    if (z >= depth) z -= depth;
+    if (z < 0) z += depth;
+    const std::size_t q = (static_cast<std::size_t>(z) * height + static_cast<std::size_t>(y)) * width +
+                          static_cast<std::size_t>(x);
+    const Shift to{x, y, z};
+    if (!within_reach(displacement(at, origin_[q]), instance_.options)) return;
+    if (!within_reach(displacement(to, origin_[p]), instance_.options)) return;
 
     const std::int64_t change = model_.change(p, q);
     const bool taken = change <= metropolis_threshold(draw[2], temperature);
@@ -195,18 +200,34 @@ class ScalarEngine final : public AnnealEngine {
     counts.changed += change != 0;
   }
 
-  Grid<Offset> displacements_of(const std::vector<std::int32_t>& origin) const {
-    Grid<Offset> result(instance_.size);
-    for (std::size_t w = 0; w < origin.size(); ++w) result[w] = displacement(w, origin[w]);
+  Placement displacements_of(const std::vector<std::int32_t>& origin) const {
+    Placement result = instance_.identity();
+    for (std::size_t w = 0; w < origin.size(); ++w) result.set(w, displacement(position(w), origin[w]));
     return result;
   }
 
-  /// k of a seed from `origin` at position w: the nearest of those that name the same pixel.
-  Offset displacement(std::size_t w, std::int32_t origin) const {
-    const auto [width, height] = instance_.size;
-    const Offset k{static_cast<int>(w) % width - origin % width,
-                   static_cast<int>(w) / width - origin / width};
-    return instance_.options.wrap ? Offset{wrap_centred(k.x, width), wrap_centred(k.y, height)} : k;
+  /// AnnealInstance's, in 32 bits: divisions are half of a proposal's cost.
+  Shift position(std::size_t index) const {
+    const auto [width, height] = instance_.slice;
+    const auto at = static_cast<std::uint32_t>(index), row = at / static_cast<std::uint32_t>(width);
+    const int x = static_cast<int>(at - row * static_cast<std::uint32_t>(width));
+    if (instance_.depth == 1) return {x, static_cast<int>(row), 0};
+    const std::uint32_t z = row / static_cast<std::uint32_t>(height);
+    return {x, static_cast<int>(row - z * static_cast<std::uint32_t>(height)), static_cast<int>(z)};
+  }
+
+  /// k of a seed from `origin` at a position: the nearest of those that name the same pixel.
+  Shift displacement(Shift at, std::int32_t origin) const {
+    const Shift from = position(static_cast<std::size_t>(origin));
+    const Shift k{at.x - from.x, at.y - from.y, at.z - from.z};
+    if (!instance_.options.wrap) return k;
+    const auto [width, height] = instance_.slice;
+    return {centred(k.x, width), centred(k.y, height), centred(k.z, instance_.depth)};
+  }
+  /// wrap_centred() of what lies within one period of 0.
+  static int centred(int k, int period) {
+    if (k < -(period / 2)) return k + period;
+    return k >= period - period / 2 ? k - period : k;
   }
 
   const AnnealInstance& instance_;

@@ -12,6 +12,10 @@
 // torus; without wrap the columns whose partner would cross the border rest). With s.y = 0 the same is done
 // with columns: column i, counted from a cut, pairs with i + s.x. Pairs never cross the cut, which moves.
 //
+// Volumes. Rows lie slice below slice. With s.z != 0 slices take the part that rows have in a flat tile:
+// slice j pairs with slice j + |s.z|, row y with row y + s.y on the slice's own torus. With s.z = 0 each
+// slice is a flat tile, all with one cut. Bands are of slices.
+//
 // Bands. A tall tile is cut into bands of rows; within a round each band runs its own sweeps on its own rows,
 // so threads need to meet only between rounds. The number of bands depends on the tile alone, never on the
 // threads.
@@ -40,36 +44,41 @@ namespace bn {
 struct ReachBytes {
   int period_x = 256;
   int period_y = 256;
+  int period_z = 256;
   int bias = 0;   ///< Chebyshev: the radius, so that bytes 0..2 radius are within reach; Euclidean: 0
   int limit = 0;  ///< Chebyshev: 2 radius; Euclidean: radius squared
   bool euclidean = false;
 
-  ReachBytes(Extent size, const RetargetOptions& options);
+  explicit ReachBytes(const AnnealInstance& instance);
 
   std::uint8_t x_byte(int k) const { return static_cast<std::uint8_t>(wrap(k + bias, period_x)); }
   std::uint8_t y_byte(int k) const { return static_cast<std::uint8_t>(wrap(k + bias, period_y)); }
+  std::uint8_t z_byte(int k) const { return static_cast<std::uint8_t>(wrap(k + bias, period_z)); }
   /// The nearest displacement of that name.
-  Offset offset(int x, int y) const {
-    return {wrap_centred(x - bias, period_x), wrap_centred(y - bias, period_y)};
+  Shift offset(int x, int y, int z) const {
+    return {wrap_centred(x - bias, period_x), wrap_centred(y - bias, period_y),
+            wrap_centred(z - bias, period_z)};
   }
-  bool allows(int x, int y) const {
-    if (!euclidean) return x <= limit && y <= limit;
-    const int a = std::min(x, period_x - x), b = std::min(y, period_y - y);
-    return a * a + b * b <= limit;
+  bool allows(int x, int y, int z) const {
+    if (!euclidean) return x <= limit && y <= limit && z <= limit;
+    const int a = std::min(x, period_x - x), b = std::min(y, period_y - y), c = std::min(z, period_z - z);
+    return a * a + b * b + c * c <= limit;
   }
 };
 
 /// What a sweep draws.
 struct Sweep {
-  Offset s;
+  Shift s;
   int phase = 0;
-  int cut_x = 0;  ///< used where s.y = 0
+  int cut_x = 0;  ///< used where s.y = s.z = 0
+  int cut_y = 0;  ///< of a volume, used where s.z = 0 and s.y is not
   std::uint32_t key_even = 0;
   std::uint32_t key_odd = 0;
   float temperature = 0.0f;
 };
 
-/// Rows first..first + count - 1, modulo the height; cut_x of its sweeps is drawn iff `wrap`.
+/// Rows first..first + count - 1, modulo the height, or a volume's slices, modulo the depth; the cuts inside
+/// it are drawn iff `wrap`.
 struct Band {
   int first = 0;
   int count = 0;
@@ -115,7 +124,9 @@ struct SweepState {
   static constexpr int kMaxLanes = 64 / static_cast<int>(sizeof(Lane));
 
   int width = 0;
-  int height = 0;
+  int height = 0;  ///< of all slices
+  int slice_height = 0;
+  int depth = 1;
   int repeated = 0;  ///< columns behind the last that must equal the first ones
   std::size_t stride = 0;
   int channels = 0;
@@ -124,6 +135,7 @@ struct SweepState {
   std::vector<hwy::AlignedFreeUniquePtr<Lane[]>> level;
   std::vector<hwy::AlignedFreeUniquePtr<Lane[]>> landing;
   hwy::AlignedFreeUniquePtr<Lane[]> bytes;
+  hwy::AlignedFreeUniquePtr<Lane[]> bytes_z;  ///< of a volume; else null
 
   SweepState(const AnnealInstance& instance, int longest_s_x);
 
@@ -137,6 +149,7 @@ struct SweepState {
   void repeat(int y) {
     for (auto& plane : level) repeat_row(row(plane, y));
     repeat_row(row(bytes, y));
+    if (bytes_z) repeat_row(row(bytes_z, y));
   }
 
  private:
@@ -151,22 +164,64 @@ inline bool starts_pair(const Sweep& sweep, int width, int x) {
   return (i + sweep.phase) % (2 * sweep.s.x) < sweep.s.x && i + sweep.s.x < width;
 }
 
-/// Calls body(y of p, y of q) for each pair of rows of a sweep with s.y != 0.
+/// Calls body(p, q) for each pair of lines (rows, or slices) that are `s` apart on a ring of `period` lines,
+/// in disjoint blocks over the band.
 template <class Body>
-void for_each_row_pair(const Sweep& sweep, const Band& band, int height, Body&& body) {
-  const int a = std::abs(sweep.s.y);
-  for (int block = -sweep.phase; block < band.count - a; block += 2 * a) {
+void for_each_line_pair(int s, int phase, const Band& band, int period, Body&& body) {
+  const int a = std::abs(s);
+  for (int block = -phase; block < band.count - a; block += 2 * a) {
     const int end = std::min(block + a, band.count - a);
     for (int j = std::max(block, 0); j < end; ++j) {
       int lower = band.first + j, upper = lower + a;
-      if (lower >= height) lower -= height;
-      if (upper >= height) upper -= height;
-      if (sweep.s.y > 0) {
+      if (lower >= period) lower -= period;
+      if (upper >= period) upper -= period;
+      if (s > 0) {
         body(lower, upper);
       } else {
         body(upper, lower);
       }
     }
+  }
+}
+
+/// Calls body(row of p, row of q) for each pair of rows of a sweep of a flat tile with s.y != 0.
+template <class Body>
+void for_each_row_pair(const Sweep& sweep, const Band& band, int height, Body&& body) {
+  for_each_line_pair(sweep.s.y, sweep.phase, band, height, body);
+}
+
+/// The same of a volume, for s.y != 0 or s.z != 0.
+template <class Body>
+void for_each_volume_row_pair(const Sweep& sweep, const Band& band, int height, int depth, bool wraps,
+                              Body&& body) {
+  if (sweep.s.z == 0) {
+    const Band rows{sweep.cut_y, height, 0};
+    for (int j = 0; j < band.count; ++j) {
+      const int first_row = (band.first + j) % depth * height;
+      for_each_line_pair(sweep.s.y, sweep.phase, rows, height,
+                         [&](int p, int q) { body(first_row + p, first_row + q); });
+    }
+    return;
+  }
+  for_each_line_pair(sweep.s.z, sweep.phase, band, depth, [&](int p_slice, int q_slice) {
+    for (int y = 0; y < height; ++y) {
+      const int q_y = y + sweep.s.y;
+      if (!wraps && (q_y < 0 || q_y >= height)) continue;
+      body(p_slice * height + y, q_slice * height + wrap(q_y, height));
+    }
+  });
+}
+
+/// Calls body(row) for each row of a band.
+template <class Body>
+void for_each_row(const Band& band, int slice_height, int depth, Body&& body) {
+  if (depth == 1) {
+    for (int j = 0; j < band.count; ++j) body((band.first + j) % slice_height);
+    return;
+  }
+  for (int j = 0; j < band.count; ++j) {
+    const int first_row = (band.first + j) % depth * slice_height;
+    for (int y = 0; y < slice_height; ++y) body(first_row + y);
   }
 }
 
@@ -180,9 +235,10 @@ struct SweepCounts {
 template <Metric metric, class Lane>
 void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, const Sweep& sweep,
                    const Band& band, SweepCounts& result, WorseningCounts* worsenings) {
-  const Offset s = sweep.s;
+  const Shift s = sweep.s;
   const ReachBytes& reach = state.reach;
-  const int plus_x = wrap(s.x, reach.period_x), plus_y = wrap(s.y, reach.period_y);
+  const int plus_x = wrap(s.x, reach.period_x), plus_y = wrap(s.y, reach.period_y),
+            plus_z = wrap(s.z, reach.period_z);
   const auto cost = [](Lane a, Lane b) {
     return level_cost(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), metric);
   };
@@ -195,7 +251,12 @@ void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, cons
     const int to_q_y = wrap((p_bytes >> 8 & 255) + plus_y, reach.period_y);
     const int to_p_x = wrap((q_bytes & 255) - plus_x, reach.period_x);
     const int to_p_y = wrap((q_bytes >> 8 & 255) - plus_y, reach.period_y);
-    if (!reach.allows(to_q_x, to_q_y) || !reach.allows(to_p_x, to_p_y)) return;
+    int to_q_z = reach.bias, to_p_z = reach.bias;
+    if (state.bytes_z) {
+      to_q_z = wrap(static_cast<int>(state.row(state.bytes_z, y)[x]) + plus_z, reach.period_z);
+      to_p_z = wrap(static_cast<int>(state.row(state.bytes_z, q_y)[q_x]) - plus_z, reach.period_z);
+    }
+    if (!reach.allows(to_q_x, to_q_y, to_q_z) || !reach.allows(to_p_x, to_p_y, to_p_z)) return;
 
     std::int64_t change = 0;
     for (int c = 0; c < state.channels; ++c) {
@@ -212,27 +273,32 @@ void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, cons
     }
     state.row(state.bytes, y)[x] = static_cast<Lane>(to_p_x | to_p_y << 8);
     state.row(state.bytes, q_y)[q_x] = static_cast<Lane>(to_q_x | to_q_y << 8);
+    if (state.bytes_z) {
+      state.row(state.bytes_z, y)[x] = static_cast<Lane>(to_p_z);
+      state.row(state.bytes_z, q_y)[q_x] = static_cast<Lane>(to_q_z);
+    }
     result.change += change;
     ++result.counts.accepted;
     result.counts.changed += change != 0;
   };
 
   const int columns = instance.options.wrap ? state.width : state.width - s.x;
-  if (s.y == 0) {
-    for (int j = 0; j < band.count; ++j) {
-      const int y = (band.first + j) % state.height;
+  if (s.y == 0 && s.z == 0) {
+    for_each_row(band, state.slice_height, state.depth, [&](int y) {
       for (int x = 0; x < columns; ++x) {
         if (starts_pair(sweep, state.width, x)) propose(x, y, y);
       }
       state.repeat(y);
-    }
+    });
     return;
   }
-  for_each_row_pair(sweep, band, state.height, [&](int y, int q_y) {
+  const auto rows = [&](int y, int q_y) {
     for (int x = 0; x < columns; ++x) propose(x, y, q_y);
     state.repeat(y);
     state.repeat(q_y);
-  });
+  };
+  if (state.depth == 1) return for_each_row_pair(sweep, band, state.height, rows);
+  for_each_volume_row_pair(sweep, band, state.slice_height, state.depth, instance.options.wrap, rows);
 }
 
 /// The same on the best instruction set; `first_partner` is starts_pair() of each column as -1 or 0, used
@@ -245,5 +311,11 @@ void sweep_l1(SweepState<std::int32_t>& state, const AnnealInstance& instance, c
               const Band& band, SweepCounts& result);
 void sweep_l2(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
               const Band& band, SweepCounts& result);
+void sweep_volume_l1(SweepState<std::int16_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                     const Band& band, SweepCounts& result);
+void sweep_volume_l1(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                     const Band& band, SweepCounts& result);
+void sweep_volume_l2(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                     const Band& band, SweepCounts& result);
 
 }  // namespace bn

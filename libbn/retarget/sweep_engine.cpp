@@ -21,7 +21,7 @@ std::array<std::uint32_t, 4> draw(std::uint64_t seed, std::uint32_t stream, std:
 
 int longest_s_x(const AnnealInstance& instance) {
   int longest = 0;
-  for (const Offset s : instance.displacements) longest = std::max(longest, s.x);
+  for (const Shift s : instance.displacements) longest = std::max(longest, s.x);
   return longest;
 }
 
@@ -31,14 +31,17 @@ constexpr std::size_t round_up(std::size_t value, std::size_t unit) {
 
 }  // namespace
 
-ReachBytes::ReachBytes(Extent size, const RetargetOptions& options) {
+ReachBytes::ReachBytes(const AnnealInstance& instance) {
+  const RetargetOptions& options = instance.options;
   euclidean = options.reach == Reach::euclidean;
   bias = euclidean ? 0 : options.radius;
   limit = euclidean ? options.radius * options.radius : 2 * options.radius;
   // Bytes of seeds within reach and swaps of at most 2 radii reach from -3 to 4 radii: below 256 in all, and
   // no other name of a displacement comes near if the side is above 4 radii.
-  if (options.wrap && size.width <= 4 * options.radius) period_x = size.width;
-  if (options.wrap && size.height <= 4 * options.radius) period_y = size.height;
+  if (!options.wrap) return;
+  if (instance.slice.width <= 4 * options.radius) period_x = instance.slice.width;
+  if (instance.slice.height <= 4 * options.radius) period_y = instance.slice.height;
+  if (instance.depth <= 4 * options.radius) period_z = instance.depth;
 }
 
 Sweep sweep_of(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain, std::int64_t round,
@@ -49,10 +52,12 @@ Sweep sweep_of(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t
   result.s =
       instance
           .displacements[random_below(choice[0], static_cast<std::uint32_t>(instance.displacements.size()))];
-  const int a = result.s.y != 0 ? std::abs(result.s.y) : result.s.x;
+  const int a = result.s.z != 0 ? std::abs(result.s.z) : result.s.y != 0 ? std::abs(result.s.y) : result.s.x;
   result.phase = static_cast<int>(random_below(choice[1], static_cast<std::uint32_t>(2 * a)));
   if (instance.options.wrap) {
     result.cut_x = static_cast<int>(random_below(choice[2], static_cast<std::uint32_t>(instance.size.width)));
+    result.cut_y =
+        static_cast<int>(random_below(choice[3], static_cast<std::uint32_t>(instance.slice.height)));
   }
   result.key_even = keys[0];
   result.key_odd = keys[1];
@@ -62,9 +67,10 @@ Sweep sweep_of(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t
 
 std::vector<Band> bands_of(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain,
                            std::int64_t round) {
-  const int height = instance.size.height;
-  // High enough that few rows miss their partner at the edge.
-  const int least = std::max(64, 4 * instance.options.radius);
+  const bool volume = instance.depth > 1;
+  const int height = volume ? instance.depth : instance.size.height;
+  // High enough that few rows miss their partner at the edge; slices have many rows, so fewer of them do.
+  const int least = std::max(volume ? 16 : 64, 4 * instance.options.radius);
   const int count = std::max(1, height / least);
   const bool wraps = instance.options.wrap;
   int cut = 0;
@@ -91,11 +97,13 @@ template <class Lane>
 SweepState<Lane>::SweepState(const AnnealInstance& instance, int longest_s_x)
     : width(instance.size.width),
       height(instance.size.height),
+      slice_height(instance.slice.height),
+      depth(instance.depth),
       repeated(longest_s_x),
       stride(round_up(static_cast<std::size_t>(std::max(width, kMaxLanes)), kMaxLanes) +
              round_up(static_cast<std::size_t>(longest_s_x) + 1, kMaxLanes)),
       channels(static_cast<int>(instance.weight.size())),
-      reach(instance.size, instance.options) {
+      reach(instance) {
   const std::size_t lanes = stride * static_cast<std::size_t>(height);
   const auto plane = [&] {
     auto result = hwy::AllocateAligned<Lane>(lanes);
@@ -113,6 +121,7 @@ SweepState<Lane>::SweepState(const AnnealInstance& instance, int longest_s_x)
     }
   }
   bytes = plane();
+  if (depth > 1) bytes_z = plane();
 }
 
 namespace {
@@ -129,7 +138,7 @@ class SweepEngine final : public AnnealEngine {
         chain_(chain),
         kernel_(kernel),
         state_(instance, longest_s_x(instance)) {
-    place(Grid<Offset>(instance.size));
+    place(instance.identity());
   }
 
   RoundCounts sweeps(std::int64_t round, int first, int end, double temperature, const Execution& execution,
@@ -168,23 +177,29 @@ class SweepEngine final : public AnnealEngine {
 
   std::int64_t energy() const override { return energy_; }
 
-  Grid<Offset> displacements() const override { return displacements_of(state_.bytes.get()); }
-  void keep() override {
-    const Lane* bytes = state_.bytes.get();
-    kept_.assign(bytes, bytes + state_.stride * static_cast<std::size_t>(state_.height));
+  Placement displacements() const override {
+    return displacements_of(state_.bytes.get(), state_.bytes_z.get());
   }
-  Grid<Offset> kept() const override { return displacements_of(kept_.data()); }
+  void keep() override {
+    const std::size_t lanes = state_.stride * static_cast<std::size_t>(state_.height);
+    kept_.assign(state_.bytes.get(), state_.bytes.get() + lanes);
+    if (state_.bytes_z) kept_z_.assign(state_.bytes_z.get(), state_.bytes_z.get() + lanes);
+  }
+  Placement kept() const override { return displacements_of(kept_.data(), kept_z_.data()); }
 
-  void place(const Grid<Offset>& displacement_at) override {
+  void place(const Placement& displacement_at) override {
     energy_ = 0;
     for (int y = 0; y < state_.height; ++y) {
       Lane* bytes = state_.row(state_.bytes, y);
       for (int x = 0; x < state_.width; ++x) {
-        const Offset k = displacement_at(x, y);
+        const std::size_t w = static_cast<std::size_t>(y) * static_cast<std::size_t>(state_.width) +
+                              static_cast<std::size_t>(x);
+        const Shift at = instance_.position(w), k = displacement_at.at(w);
+        const std::size_t from = instance_.index(at.x - k.x, at.y - k.y, at.z - k.z);
+        if (state_.bytes_z) state_.row(state_.bytes_z, y)[x] = static_cast<Lane>(state_.reach.z_byte(k.z));
         bytes[x] = static_cast<Lane>(state_.reach.x_byte(k.x) | state_.reach.y_byte(k.y) << 8);
         for (int c = 0; c < state_.channels; ++c) {
-          const std::int32_t level =
-              instance_.seed_level[c].torus(std::int64_t{x} - k.x, std::int64_t{y} - k.y);
+          const std::int32_t level = instance_.seed_level[c][from];
           state_.row(state_.level[c], y)[x] = static_cast<Lane>(level);
           energy_ += instance_.weight[c] * level_cost(level, instance_.landing_level[c](x, y), metric);
         }
@@ -194,13 +209,15 @@ class SweepEngine final : public AnnealEngine {
   }
 
  private:
-  Grid<Offset> displacements_of(const Lane* bytes) const {
-    Grid<Offset> result(instance_.size);
+  Placement displacements_of(const Lane* bytes, const Lane* bytes_z) const {
+    Placement result = instance_.identity();
+    std::size_t w = 0;
     for (int y = 0; y < state_.height; ++y) {
       for (int x = 0; x < state_.width; ++x) {
-        const auto both = static_cast<int>(
-            bytes[static_cast<std::size_t>(y) * state_.stride + static_cast<std::size_t>(x)]);
-        result(x, y) = state_.reach.offset(both & 255, both >> 8 & 255);
+        const std::size_t lane = static_cast<std::size_t>(y) * state_.stride + static_cast<std::size_t>(x);
+        const auto both = static_cast<int>(bytes[lane]);
+        const int z = instance_.depth > 1 ? static_cast<int>(bytes_z[lane]) : state_.reach.bias;
+        result.set(w++, state_.reach.offset(both & 255, both >> 8 & 255, z));
       }
     }
     return result;
@@ -212,6 +229,7 @@ class SweepEngine final : public AnnealEngine {
   Kernel kernel_;
   SweepState<Lane> state_;
   std::vector<Lane> kept_;
+  std::vector<Lane> kept_z_;
   std::int64_t energy_ = 0;
 };
 
@@ -227,6 +245,15 @@ std::unique_ptr<AnnealEngine> make_sweep_engine(const AnnealInstance& instance, 
                                                 std::uint32_t chain) {
   // A change of energy and the terms it is added from must fit the lane.
   const bool fits_16 = instance.largest_change < (1 << 15), fits_32 = instance.largest_change < (1 << 30);
+  if (instance.depth > 1) {
+    if (instance.options.metric == Metric::l2) {
+      return fits_32 ? make<Metric::l2, std::int32_t>(instance, seed, chain, sweep_volume_l2)
+                     : make<Metric::l2, std::int64_t>(instance, seed, chain, nullptr);
+    }
+    if (fits_16) return make<Metric::l1, std::int16_t>(instance, seed, chain, sweep_volume_l1);
+    if (fits_32) return make<Metric::l1, std::int32_t>(instance, seed, chain, sweep_volume_l1);
+    return make<Metric::l1, std::int64_t>(instance, seed, chain, nullptr);
+  }
   if (instance.options.metric == Metric::l2) {
     if (fits_32) return make<Metric::l2, std::int32_t>(instance, seed, chain, sweep_l2);
     return make<Metric::l2, std::int64_t>(instance, seed, chain, nullptr);

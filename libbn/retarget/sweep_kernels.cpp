@@ -21,7 +21,7 @@ namespace bn::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
-template <Metric metric, bool kSingle, class Lane>
+template <Metric metric, bool kSingle, bool kVolume, class Lane>
 void sweep_band(SweepState<Lane>& state, const AnnealInstance& instance, const Sweep& sweep, const Band& band,
                 SweepCounts& result) {
   sweep_plainly<metric>(state, instance, sweep, band, result, nullptr);
@@ -62,7 +62,7 @@ HWY_INLINE auto threshold_lanes(D32 du, V bits, VF temperature, float cap) {
 }
 
 /// What one sweep's vectors share.
-template <Metric metric, bool kSingle, class Lane>
+template <Metric metric, bool kSingle, bool kVolume, class Lane>
 class RowSweeper {
   static constexpr int kCapLanes = SweepState<Lane>::kMaxLanes;
   using D = hn::CappedTag<Lane, kCapLanes>;
@@ -87,6 +87,11 @@ class RowSweeper {
     period_ = byte_pairs(r.period_x, r.period_y);
     limit_ =
         r.euclidean ? hn::BitCast(d8, hn::Set(d, static_cast<Lane>(r.limit))) : byte_pairs(r.limit, r.limit);
+    if constexpr (kVolume) {
+      plus_z_ = byte_pairs(wrap(sweep.s.z, r.period_z), 0);
+      minus_z_ = byte_pairs(wrap(-sweep.s.z, r.period_z), 0);
+      period_z_ = byte_pairs(r.period_z, 0);
+    }
     periodic_ = r.period_x != 256 || r.period_y != 256;
     euclidean_ = r.euclidean;
     // Bits 0 give the largest threshold by far: the next larger u is three times as large.
@@ -177,6 +182,10 @@ class RowSweeper {
     Lane *bytes_p, *bytes_q, *level_p, *level_q;
     const Lane *landing_p, *landing_q;
   };
+  /// The same of z.
+  struct DeepRows {
+    Lane *p, *q;
+  };
   Rows rows_of(int y, int q_y, std::size_t c) const {
     const int s_x = sweep_.s.x;
     return {state_.row(state_.bytes, y),      state_.row(state_.bytes, q_y) + s_x,
@@ -188,12 +197,38 @@ class RowSweeper {
   void each_plane(int y, Body&& body) {
     for (auto& plane : state_.level) body(state_.row(plane, y));
     body(state_.row(state_.bytes, y));
+    if constexpr (kVolume) body(state_.row(state_.bytes_z, y));
   }
 
   HWY_INLINE V8 moved(V bytes, V8 by) const {
     V8 sum = hn::Add(hn::BitCast(D8(), bytes), by);
     if (periodic_) sum = hn::Min(sum, hn::Sub(sum, period_));
     return sum;
+  }
+
+  /// moved() of z, whose word has nothing in its upper byte.
+  HWY_INLINE V8 moved_z(V bytes, V8 by) const {
+    const V8 sum = hn::Add(hn::BitCast(D8(), bytes), by);
+    return hn::Min(sum, hn::Sub(sum, period_z_));
+  }
+
+  /// within() for displacements with z.
+  HWY_INLINE M within_volume(V8 a, V8 a_z, V8 b, V8 b_z) const {
+    const D d;
+    if (!euclidean_) {
+      const V8 flat = hn::Or(hn::SaturatedSub(a, limit_), hn::SaturatedSub(b, limit_));
+      const V8 deep = hn::Or(hn::SaturatedSub(a_z, limit_), hn::SaturatedSub(b_z, limit_));
+      return hn::Eq(hn::BitCast(d, hn::Or(flat, deep)), hn::Zero(d));
+    }
+    const auto outside = [&](V8 bytes, V8 bytes_z) {
+      const V least = hn::BitCast(d, hn::Min(bytes, hn::Sub(period_, bytes)));
+      const V x = hn::And(least, hn::Set(d, Lane{255}));
+      const V y = hn::ShiftRight<8>(least);
+      const V z = hn::BitCast(d, hn::Min(bytes_z, hn::Sub(period_z_, bytes_z)));
+      const V sum = hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+      return hn::Gt(sum, hn::BitCast(d, limit_));
+    };
+    return hn::Not(hn::Or(outside(a, a_z), outside(b, b_z)));
   }
 
   HWY_INLINE M within(V8 a, V8 b) const {
@@ -251,7 +286,17 @@ class RowSweeper {
     const D d;
     const V p = hn::LoadU(d, rows.bytes_p + x), q = hn::LoadU(d, rows.bytes_q + x);
     const V8 to_q = moved(p, plus_), to_p = moved(q, minus_);
-    M open = within(to_q, to_p);
+    DeepRows deep{};
+    V8 to_q_z = plus_, to_p_z = plus_;
+    M open;
+    if constexpr (kVolume) {
+      deep = {state_.row(state_.bytes_z, y) + x, state_.row(state_.bytes_z, q_y) + sweep_.s.x + x};
+      to_q_z = moved_z(hn::LoadU(d, deep.p), plus_z_);
+      to_p_z = moved_z(hn::LoadU(d, deep.q), minus_z_);
+      open = within_volume(to_q, to_q_z, to_p, to_p_z);
+    } else {
+      open = within(to_q, to_p);
+    }
     if constexpr (kMasked) open = hn::And(open, counted);
 
     V change = channel_change(rows, x);
@@ -274,6 +319,9 @@ class RowSweeper {
       hn::StoreU(hn::IfThenElse(taken, new_q, hn::LoadU(d, at_q)), d, at_q);
     };
     swap_lanes(rows.bytes_p + x, rows.bytes_q + x, hn::BitCast(d, to_p), hn::BitCast(d, to_q), p);
+    if constexpr (kVolume) {
+      swap_lanes(deep.p, deep.q, hn::BitCast(d, to_p_z), hn::BitCast(d, to_q_z), hn::LoadU(d, deep.p));
+    }
     for (std::size_t c = 0; c < (kSingle ? 1 : state_.level.size()); ++c) {
       const Rows channel = kSingle ? rows : rows_of(y, q_y, c);
       const V v_p = hn::LoadU(d, channel.level_p + x), v_q = hn::LoadU(d, channel.level_q + x);
@@ -303,6 +351,7 @@ class RowSweeper {
   SweepState<Lane>& state_;
   const Sweep& sweep_;
   V8 plus_, minus_, period_, limit_;
+  V8 plus_z_, minus_z_, period_z_;  // of volumes
   V most_;
   hn::Vec<DU32> index_, key_, other_key_;
   hn::Vec<DF> temperature_;
@@ -311,24 +360,29 @@ class RowSweeper {
   std::int64_t accepted_ = 0, changed_ = 0, change_ = 0;
 };
 
-template <Metric metric, bool kSingle, class Lane>
+template <Metric metric, bool kSingle, bool kVolume, class Lane>
 void sweep_band(SweepState<Lane>& state, const AnnealInstance& instance, const Sweep& sweep, const Band& band,
                 SweepCounts& result) {
-  RowSweeper<metric, kSingle, Lane> sweeper(state, sweep);
+  RowSweeper<metric, kSingle, kVolume, Lane> sweeper(state, sweep);
   const int s_x = sweep.s.x, width = state.width;
   const bool wraps = instance.options.wrap;
   std::int64_t pairs = 0;
 
-  if (sweep.s.y != 0) {
+  if (sweep.s.y != 0 || (kVolume && sweep.s.z != 0)) {
     const int columns = wraps ? width : width - s_x;
-    for_each_row_pair(sweep, band, state.height, [&](int y, int q_y) {
+    const auto rows = [&](int y, int q_y) {
       pairs += columns;
       sweeper.columns(y, q_y, 0, columns, nullptr);
       if (!sweeper.take_dirty()) return;
       if (wraps) sweeper.unwrap(q_y);
       sweeper.repeat(y);
       sweeper.repeat(q_y);
-    });
+    };
+    if constexpr (kVolume) {
+      for_each_volume_row_pair(sweep, band, state.slice_height, state.depth, wraps, rows);
+    } else {
+      for_each_row_pair(sweep, band, state.height, rows);
+    }
   } else {
     std::vector<Lane> first_partner(static_cast<std::size_t>(width) + SweepState<Lane>::kMaxLanes, Lane{0});
     int in_a_row = 0;
@@ -337,8 +391,7 @@ void sweep_band(SweepState<Lane>& state, const AnnealInstance& instance, const S
       first_partner[static_cast<std::size_t>(x)] = Lane{-1};
       ++in_a_row;
     }
-    for (int j = 0; j < band.count; ++j) {
-      const int y = (band.first + j) % state.height;
+    for_each_row(band, state.slice_height, kVolume ? state.depth : 1, [&](int y) {
       pairs += in_a_row;
       // Across the border first, while the repeated columns are still those of the row.
       if (wraps) {
@@ -347,7 +400,7 @@ void sweep_band(SweepState<Lane>& state, const AnnealInstance& instance, const S
       }
       sweeper.columns(y, y, 0, width - s_x, first_partner.data());
       sweeper.repeat(y);
-    }
+    });
   }
   result.counts.proposals += pairs;
   sweeper.add_to(result);
@@ -357,19 +410,31 @@ void sweep_band(SweepState<Lane>& state, const AnnealInstance& instance, const S
 
 void L1Single16(SweepState<std::int16_t>& state, const AnnealInstance& instance, const Sweep& sweep,
                 const Band& band, SweepCounts& result) {
-  sweep_band<Metric::l1, true>(state, instance, sweep, band, result);
+  sweep_band<Metric::l1, true, false>(state, instance, sweep, band, result);
 }
 void L1Of16(SweepState<std::int16_t>& state, const AnnealInstance& instance, const Sweep& sweep,
             const Band& band, SweepCounts& result) {
-  sweep_band<Metric::l1, false>(state, instance, sweep, band, result);
+  sweep_band<Metric::l1, false, false>(state, instance, sweep, band, result);
 }
 void L1Of32(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
             const Band& band, SweepCounts& result) {
-  sweep_band<Metric::l1, false>(state, instance, sweep, band, result);
+  sweep_band<Metric::l1, false, false>(state, instance, sweep, band, result);
 }
 void L2Of32(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
             const Band& band, SweepCounts& result) {
-  sweep_band<Metric::l2, false>(state, instance, sweep, band, result);
+  sweep_band<Metric::l2, false, false>(state, instance, sweep, band, result);
+}
+void VolumeL1Of16(SweepState<std::int16_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                  const Band& band, SweepCounts& result) {
+  sweep_band<Metric::l1, false, true>(state, instance, sweep, band, result);
+}
+void VolumeL1Of32(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                  const Band& band, SweepCounts& result) {
+  sweep_band<Metric::l1, false, true>(state, instance, sweep, band, result);
+}
+void VolumeL2Of32(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                  const Band& band, SweepCounts& result) {
+  sweep_band<Metric::l2, false, true>(state, instance, sweep, band, result);
 }
 
 }  // namespace bn::HWY_NAMESPACE
@@ -382,6 +447,9 @@ HWY_EXPORT(L1Single16);
 HWY_EXPORT(L1Of16);
 HWY_EXPORT(L1Of32);
 HWY_EXPORT(L2Of32);
+HWY_EXPORT(VolumeL1Of16);
+HWY_EXPORT(VolumeL1Of32);
+HWY_EXPORT(VolumeL2Of32);
 
 void sweep_l1_single(SweepState<std::int16_t>& state, const AnnealInstance& instance, const Sweep& sweep,
                      const Band& band, SweepCounts& result) {
@@ -398,6 +466,19 @@ void sweep_l1(SweepState<std::int32_t>& state, const AnnealInstance& instance, c
 void sweep_l2(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
               const Band& band, SweepCounts& result) {
   HWY_DYNAMIC_DISPATCH(L2Of32)(state, instance, sweep, band, result);
+}
+
+void sweep_volume_l1(SweepState<std::int16_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                     const Band& band, SweepCounts& result) {
+  HWY_DYNAMIC_DISPATCH(VolumeL1Of16)(state, instance, sweep, band, result);
+}
+void sweep_volume_l1(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                     const Band& band, SweepCounts& result) {
+  HWY_DYNAMIC_DISPATCH(VolumeL1Of32)(state, instance, sweep, band, result);
+}
+void sweep_volume_l2(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
+                     const Band& band, SweepCounts& result) {
+  HWY_DYNAMIC_DISPATCH(VolumeL2Of32)(state, instance, sweep, band, result);
 }
 
 }  // namespace bn

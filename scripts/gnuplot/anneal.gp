@@ -69,13 +69,14 @@ set autoscale
 set format x "%g"
 set xtics norotate
 
+# throughput.csv: engine,side,threads,temperature,proposals_per_second
 set output "threads.svg"
-set title "Throughput of whole annealings"
+set title "Throughput against threads, 512 x 512 at constant temperature"
 set xlabel "threads"
 set ylabel "proposals a second"
 set format y "%.1e"
 set xrange [0.5:*]
 set yrange [0:*]
 set xtics 1
-sides = system("cut -d, -f1 throughput.csv | tail -n +2 | sort -nu")
-plot for [i=1:words(sides)] sprintf("< awk -F, '$1==%s' throughput.csv", word(sides,i)) using 2:($3/$4) with linespoints ls i title word(sides,i)."^2"
+plot for [i=1:2] sprintf("< awk -F, '$2==512 && $4==%s' throughput.csv", word("3 0.5", i)) using 3:5 \
+  with linespoints ls i title "T = ".word("3 0.5", i)

@@ -1,6 +1,7 @@
-// Protects: the vector sweep equals its plain statement bit for bit on every instruction set, thread count,
-// size, reach, border, metric and number of channels; running energies equal recomputed ones; every state is
-// a permutation within reach.
+// Protects: the vector sweep equals its plain statement bit for bit on every
+// instruction set, thread count, size, reach, border, metric and number of
+// channels; running energies equal recomputed ones; every state is a
+// permutation within reach.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -85,8 +86,8 @@ TEST(AnnealEngine, EveryInstructionSetEqualsThePlainStatement) {
       WorseningCounts worsenings;
       for (int round = 0; round < 2; ++round)
         expected += plain->round(round, 9, temperature, {}, &worsenings);
-      EXPECT_EQ(plain->energy(), energy_by_definition(problem, instance.moves_of(plain->displacements())));
-      EXPECT_NO_THROW(check_permutation(instance.moves_of(plain->displacements()), c.options));
+      EXPECT_EQ(plain->energy(), energy_by_definition(problem, instance.moves_of(plain->displacements()).xy));
+      EXPECT_NO_THROW(check_permutation(instance.moves_of(plain->displacements()).xy, c.options));
       for (const std::string& name : instruction_sets()) {
         use_instruction_set(name);
         const auto engine = make_sweep_engine(instance, 5, 2);
@@ -108,13 +109,13 @@ TEST(AnnealEngine, EveryInstructionSetEqualsThePlainStatement) {
 TEST(AnnealEngine, ThreadsChangeNothing) {
   const AnnealProblem problem = problem_of({48, 320}, {.step = {11, 30}}, 256);
   const AnnealInstance instance(problem, 0);
-  Grid<Offset> expected;
+  Placement expected;
   for (const int threads : {1, 2, 3, 7}) {
     const auto engine = make_sweep_engine(instance, 1, 0);
     for (int round = 0; round < 5; ++round) engine->round(round, 20, 10.0, {.threads = threads});
     if (threads == 1) expected = engine->displacements();
     EXPECT_EQ(engine->displacements(), expected) << threads;
-    EXPECT_EQ(engine->energy(), anneal_energy(problem, instance.moves_of(engine->displacements())));
+    EXPECT_EQ(engine->energy(), anneal_energy(problem, instance.moves_of(engine->displacements()).xy));
   }
 }
 
@@ -125,9 +126,9 @@ TEST(AnnealEngine, TheScalarEngineKeepsItsEnergyAndItsReach) {
     const AnnealInstance instance(problem, 0);
     const auto engine = make_scalar_engine(instance, 5, 2);
     const std::int64_t start = engine->energy();
-    EXPECT_EQ(start, energy_by_definition(problem, instance.moves_of(Grid<Offset>(c.size))));
+    EXPECT_EQ(start, energy_by_definition(problem, instance.moves_of(Grid<Offset>(c.size)).xy));
     for (int round = 0; round < 3; ++round) engine->round(round, 9, 0.05 * static_cast<double>(c.bound), {});
-    const auto move = instance.moves_of(engine->displacements());
+    const auto move = instance.moves_of(engine->displacements()).xy;
     EXPECT_EQ(engine->energy(), energy_by_definition(problem, move));
     EXPECT_NO_THROW(check_permutation(move, c.options));
   }
@@ -163,7 +164,7 @@ TEST(AnnealEngine, RoundsBeyond32BitsDrawTheirOwnNumbers) {
     low->round(3, 8, 100.0, {});
     high->round(3 + (std::int64_t{1} << 32), 8, 100.0, {});
     EXPECT_NE(low->displacements(), high->displacements());
-    EXPECT_EQ(high->energy(), anneal_energy(problem, instance.moves_of(high->displacements())));
+    EXPECT_EQ(high->energy(), anneal_energy(problem, instance.moves_of(high->displacements()).xy));
   }
 }
 
@@ -226,13 +227,14 @@ TEST(AnnealEngine, TheFilteredResidualIsItsDefinition) {
     const std::int64_t start = engine->energy();
     double temperature = static_cast<double>(start) / 50.0;
     for (int round = 0; round < 40; ++round, temperature *= 0.8) engine->round(round, 5, temperature, {});
-    const auto move = instance.moves_of(engine->displacements());
+    const auto move = instance.moves_of(engine->displacements()).xy;
     EXPECT_EQ(engine->energy(), anneal_energy(problem, move));
     EXPECT_NO_THROW(check_permutation(move, problem.retarget));
     EXPECT_LE(engine->energy(), start);
 
-    // From the formula: blur the difference on the torus, square, add; the integer Gaussian for sigma 1.5 is
-    // known by its shares, which are right to half a 256th.
+    // From the formula: blur the difference on the torus, square, add; the
+    // integer Gaussian for sigma 1.5 is known by its shares, which are right to
+    // half a 256th.
     double sum = 0.0;
     std::vector<double> g;
     for (int i = -5; i <= 5; ++i)

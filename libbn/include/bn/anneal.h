@@ -151,10 +151,21 @@ struct AnnealProblem {
   std::vector<AnnealChannel> channels;  ///< 1..16
   RetargetOptions retarget;             ///< metric must be l2 for a residual; gap is not used
   double residual_sigma_px = 0.0;       ///< 0, or 0.3..8 pixels
+  /// Above 1: a volume. Levels are a stack of so many slices of equal height, each below the one before; u,
+  /// R, d and the torus have a third axis, z, counting slices; the radius holds on it too. 1..16384, divides
+  /// the levels' height. Not with a residual. The motion moves slices in x and y alone.
+  int depth = 1;
+  int step_z = 0;  ///< d.z, any integer
 };
 
-/// The energy of any permutation, recomputed from its definition. Errors: as anneal_retarget().
-std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move);
+/// The energy of any permutation, recomputed from its definition. Of a volume move_z is R.z, stacked as the
+/// levels are; else it is empty. Errors: as anneal_retarget().
+std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move,
+                           const Grid<std::int8_t>& move_z = {});
+
+/// check_permutation() (bn/retarget.h) for flat tiles and for volumes.
+void check_anneal_permutation(const AnnealProblem& problem, const Grid<Offset>& move,
+                              const Grid<std::int8_t>& move_z = {});
 
 // --- the run ---------------------------------------------------------------------------------------
 
@@ -251,6 +262,7 @@ struct AnnealOptions {
 
 struct AnnealResult {
   RetargetTile tile;           ///< the best placement seen; tile.lower_bound from the options
+  Grid<std::int8_t> move_z;    ///< of a volume: R.z, the third axis of tile.move; else empty
   std::int64_t proposals = 0;  ///< made, by all chains
   std::int64_t accepted = 0;
   double start_temperature = 0.0;
@@ -311,8 +323,11 @@ class Annealing {
   void sweep();
 
   AnnealState state() const;
-  Grid<Offset> move() const;    ///< the placement of the traced chain, now; a pass over the pixels
-  AnnealResult result() const;  ///< with the best placement after a whole round, so far; likewise
+  /// As Checkpointing::save gets it; after a beat. Throws invalid_input between the sweeps of one.
+  std::string checkpoint() const;
+  Grid<Offset> move() const;         ///< the placement of the traced chain, now; a pass over the pixels
+  Grid<std::int8_t> move_z() const;  ///< its third axis, of a volume; else empty
+  AnnealResult result() const;       ///< with the best placement after a whole round, so far; likewise
 
  private:
   struct Held;
@@ -382,15 +397,26 @@ AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOpti
                          const Execution& execution = {});
 
 struct AnnealThroughput {
+  std::string engine;  ///< an instruction set of the data-parallel sweep, or "swap by swap"
   int side = 0;
-  int threads = 0;
-  std::int64_t proposals = 0;
-  double seconds = 0.0;
-  double cpu_seconds = 0.0;
+  int threads = 1;
+  double temperature = 0.0;
+  double proposals_per_second = 0.0;  ///< of wall time
 };
-/// Whole annealings of 2e9 proposals on square tiles of random 8 bit levels, radius 6.
-std::vector<AnnealThroughput> study_anneal_throughput(const std::vector<int>& sides,
-                                                      const std::vector<int>& threads,
-                                                      const Execution& execution = {});
+/// At constant temperatures, in equilibrium, on square tiles of random 8 bit levels, radius 6; medians over
+/// eleven stretches. Every engine at 256x256 and T = 30, 3 and 0.5 on one thread; 512x512 at T = 3 and 0.5 on
+/// 1, 2, 4 .. execution.threads, taking turns, so that what else the machine does hits them alike.
+std::vector<AnnealThroughput> study_anneal_throughput(const Execution& execution = {});
+
+/// What watching and saving cost, as shares of a run's time.
+struct AnnealCosts {
+  double trace = 0.0;         ///< median over pairs of runs, with a trace and without, processor time
+  double save_seconds = 0.0;  ///< one checkpoint, encoded and handed to `save`; median
+  double checkpoints = 0.0;   ///< save_seconds over the default interval
+  std::size_t checkpoint_bytes = 0;
+};
+AnnealCosts study_anneal_costs(const AnnealProblem& problem,
+                               const std::function<void(std::string_view)>& save,
+                               const Execution& execution = {});
 
 }  // namespace bn
