@@ -1,23 +1,14 @@
 // Protects: acceptance follows exp(-change / T), and both engines sample Boltzmann's distribution, which
-// enumeration knows on tiny tiles. Seeds are fixed; critical values are those of chance 1e-5.
+// enumeration knows on tiny tiles. Seeds are fixed.
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
-#include <numeric>
 
-#include "reference.h"
-#include "retarget/anneal_engine.h"
+#include "boltzmann.h"
 #include "retarget/sweep.h"
 
 namespace bn {
 namespace {
-
-/// Chi-square's value that chance exceeds once in 1e5 (Wilson and Hilferty 1931).
-double critical_chi_square(int degrees) {
-  const double v = 2.0 / (9.0 * degrees);
-  return degrees * std::pow(1.0 - v + 4.265 * std::sqrt(v), 3.0);
-}
 
 TEST(Metropolis, ThresholdsFollowTheExponential) {
   // The thresholds as sweeps draw them, by size: P(threshold = k) = exp(-k/T) - exp(-(k+1)/T).
@@ -95,48 +86,9 @@ void expect_boltzmann(Extent size, RetargetOptions options, double temperature, 
   problem.channels = {{random_levels(size, 5, 6)}};
   problem.retarget = options;
   const auto matrix = cost_matrix(problem.channels[0].levels, options);
-  std::vector<std::size_t> to(matrix.size());
-  std::iota(to.begin(), to.end(), 0u);
-  std::map<std::int64_t, double> weight;
-  double total = 0.0;
-  do {
-    std::int64_t energy = 0;
-    for (std::size_t u = 0; u < to.size() && energy < kForbidden; ++u) energy += matrix[u][to[u]];
-    if (energy >= kForbidden) continue;
-    const double w = std::exp(-static_cast<double>(energy) / temperature);
-    weight[energy] += w;
-    total += w;
-  } while (std::next_permutation(to.begin(), to.end()));
-
   const AnnealInstance instance(problem, 2 * options.radius);
   const auto engine = (scalar ? make_scalar_engine : make_sweep_engine)(instance, 1, 0);
-  // Far enough apart to count as independent: each seed is offered some tens of swaps in between.
-  constexpr int kSamples = 10000, kApart = 64;
-  std::map<std::int64_t, double> seen;
-  for (int i = 0; i < kSamples; ++i) {
-    engine->round(i, kApart, temperature, {});
-    ++seen[engine->energy()];
-  }
-  double chi_square = 0.0, rest_expected = 0.0, rest_seen = 0.0;
-  int bins = 0;
-  for (const auto& [energy, w] : weight) {
-    const double expected = kSamples * w / total;
-    if (expected < 10.0) {
-      rest_expected += expected;
-      rest_seen += seen[energy];
-      continue;
-    }
-    chi_square += (seen[energy] - expected) * (seen[energy] - expected) / expected;
-    ++bins;
-  }
-  for (const auto& [energy, count] : seen)
-    ASSERT_TRUE(weight.contains(energy)) << "an energy no permutation has";
-  if (rest_expected > 1.0) {
-    chi_square += (rest_seen - rest_expected) * (rest_seen - rest_expected) / rest_expected;
-    ++bins;
-  }
-  EXPECT_GT(bins, 4);
-  EXPECT_LT(chi_square, critical_chi_square(bins - 1));
+  expect_samples(*engine, boltzmann(matrix, temperature), temperature, 5);
 }
 
 TEST(DetailedBalance, BothEnginesSampleBoltzmannsDistribution) {

@@ -5,13 +5,9 @@
 // not fit is refused.
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <map>
-#include <numeric>
 #include <ostream>
 
-#include "reference.h"
-#include "retarget/anneal_engine.h"
+#include "boltzmann.h"
 
 namespace bn {
 namespace {
@@ -152,13 +148,6 @@ TEST(AnnealVolume, TheScalarEngineKeepsItsEnergyAndItsReach) {
   }
 }
 
-/// Chi-square's value that chance exceeds once in 1e5 (Wilson and Hilferty
-/// 1931).
-double critical_chi_square(int degrees) {
-  const double v = 2.0 / (9.0 * degrees);
-  return degrees * std::pow(1.0 - v + 4.265 * std::sqrt(v), 3.0);
-}
-
 TEST(AnnealVolume, BothEnginesSampleBoltzmannsDistribution) {
   constexpr double kTemperature = 4.0;
   struct Setting {
@@ -170,9 +159,8 @@ TEST(AnnealVolume, BothEnginesSampleBoltzmannsDistribution) {
                            Setting{{4, 1, 2}, {.step = {1, 0}, .radius = 1, .wrap = false}}}) {
     const AnnealProblem problem = volume_of(s.box, s.options, 6);
     const AnnealInstance instance(problem, 2 * s.options.radius);
-    // Costs of each seed at each position, none where it cannot go.
     const std::size_t n = instance.identity().xy.count();
-    std::vector<std::vector<std::int64_t>> cost(n, std::vector<std::int64_t>(n, -1));
+    std::vector<std::vector<std::int64_t>> cost(n, std::vector<std::int64_t>(n, kForbidden));
     for (std::size_t q = 0; q < n; ++q) {
       for (std::size_t w = 0; w < n; ++w) {
         const Shift from = instance.position(q), to = instance.position(w);
@@ -185,48 +173,11 @@ TEST(AnnealVolume, BothEnginesSampleBoltzmannsDistribution) {
         cost[q][w] = std::abs(instance.seed_level[0][q] - instance.landing_level[0][w]);
       }
     }
-    std::map<std::int64_t, double> weight;
-    double total = 0.0;
-    std::vector<std::size_t> to(n);
-    std::iota(to.begin(), to.end(), 0u);
-    do {
-      std::int64_t energy = 0;
-      bool allowed = true;
-      for (std::size_t q = 0; q < n && allowed; ++q) {
-        allowed = cost[q][to[q]] >= 0;
-        energy += cost[q][to[q]];
-      }
-      if (!allowed) continue;
-      weight[energy] += std::exp(-static_cast<double>(energy) / kTemperature);
-      total += std::exp(-static_cast<double>(energy) / kTemperature);
-    } while (std::next_permutation(to.begin(), to.end()));
+    const auto shares = boltzmann(cost, kTemperature);
     for (const bool scalar : {false, true}) {
-      const auto engine = (scalar ? make_scalar_engine : make_sweep_engine)(instance, 1, 0);
-      constexpr int kSamples = 10000, kApart = 64;
-      std::map<std::int64_t, double> seen;
-      for (int i = 0; i < kSamples; ++i) {
-        engine->round(i, kApart, kTemperature, {});
-        ++seen[engine->energy()];
-      }
-      for (const auto& [energy, count] : seen) ASSERT_TRUE(weight.contains(energy));
-      double chi_square = 0.0, rest_expected = 0.0, rest_seen = 0.0;
-      int bins = 0;
-      for (const auto& [energy, w] : weight) {
-        const double expected = kSamples * w / total;
-        if (expected < 10.0) {
-          rest_expected += expected;
-          rest_seen += seen[energy];
-          continue;
-        }
-        chi_square += (seen[energy] - expected) * (seen[energy] - expected) / expected;
-        ++bins;
-      }
-      if (rest_expected > 1.0) {
-        chi_square += (rest_seen - rest_expected) * (rest_seen - rest_expected) / rest_expected;
-        ++bins;
-      }
-      EXPECT_GT(bins, 2);
-      EXPECT_LT(chi_square, critical_chi_square(bins - 1)) << scalar << " " << s.box.depth;
+      SCOPED_TRACE(testing::Message() << "scalar " << scalar << ", depth " << s.box.depth);
+      expect_samples(*(scalar ? make_scalar_engine : make_sweep_engine)(instance, 1, 0), shares, kTemperature,
+                     3);
     }
   }
 }
