@@ -1,4 +1,4 @@
-# Figures of bn study anneal, from the CSV files in the current folder:
+# Figures of bn study anneal, from those of its CSV files that are in the current folder:
 #   cd FOLDER && gnuplot .../scripts/gnuplot/anneal.gp
 # Each figure is an SVG of one look: one line style a schedule, in the order of colour-blind safe hues.
 set datafile separator ","
@@ -15,7 +15,11 @@ set key outside right top
 set border 3
 set tics nomirror
 
-schedules = system("cut -d, -f1 medians.csv | tail -n +2 | awk '!seen[$0]++'")
+there(file) = system("test -e ".file." && echo 1") eq "1"
+
+schedules = there("medians.csv") ? system("cut -d, -f1 medians.csv | tail -n +2 | awk '!seen[$0]++'") \
+  : system("ls | sed -n 's/^trace_\\(.*\\).csv/\\1/p'")
+if (there("medians.csv")) {
 radius = system("awk -F, 'NR==2 {print $2}' medians.csv")
 # Columns of medians.csv: schedule,radius,proposals,seconds,excess_low,excess_median,excess_high
 set output "error_against_time.svg"
@@ -26,7 +30,9 @@ set logscale xy
 plot for [i=1:words(schedules)] sprintf("< awk -F, '$1==\"%s\" && $2==%s' medians.csv", word(schedules,i), radius) \
   using 4:6:5:7 with yerrorlines ls i title word(schedules,i)
 unset logscale
+}
 
+if (there("surface.csv")) {
 set output "run_energy.svg"
 set title "Energy during a run"
 set xlabel "proposals"
@@ -68,7 +74,9 @@ set key outside right top
 set autoscale
 set format x "%g"
 set xtics norotate
+}
 
+if (there("throughput.csv")) {
 # throughput.csv: engine,side,threads,temperature,proposals_per_second
 set output "threads.svg"
 set title "Throughput against threads, 512 x 512 at constant temperature"
@@ -80,3 +88,4 @@ set yrange [0:*]
 set xtics 1
 plot for [i=1:2] sprintf("< awk -F, '$2==512 && $4==%s' throughput.csv", word("3 0.5", i)) using 3:5 \
   with linespoints ls i title "T = ".word("3 0.5", i)
+}
