@@ -6,8 +6,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <iterator>
-
+#include "bn/anneal.h"
 #include "bn/texture.h"
 
 namespace bn::ui {
@@ -70,24 +69,16 @@ bool run_gnuplot(const std::filesystem::path& folder) {
 
 std::string export_runs(const std::vector<ExportedRun>& runs, const std::filesystem::path& folder,
                         const Execution& execution) {
-  std::error_code failed;
-  std::filesystem::create_directories(folder, failed);
-  if (failed) {
-    throw Error({.code = ErrorCode::io,
-                 .what = "cannot be made: " + failed.message(),
-                 .where = folder.string(),
-                 .limit = "",
-                 .remedy = "choose a folder you may write to"});
-  }
-  std::string table = "schedule,radius,proposals,seed,seconds,energy\n", names;
+  make_folder(folder);
+  std::string names;
+  std::vector<AnnealStudyRun> table;
   for (const ExportedRun& run : runs) {
     throw_if_stopped(execution);
-    fmt::format_to(std::back_inserter(table), "{},{},{},{},{:.4f},{}\n", run.schedule, run.radius,
-                   run.proposals, run.seed, run.seconds, run.energy);
+    table.push_back({run.schedule, run.radius, run.proposals, run.seed, run.seconds, run.energy});
     write_text_file(folder / ("trace_" + run.name + ".csv"), run.trace_csv);
     names += (names.empty() ? "" : " ") + run.name;
   }
-  write_text_file(folder / "runs.csv", table);
+  write_text_file(folder / "runs.csv", runs_csv(table));
   std::string script = kScript;
   script.replace(script.find("{}"), 2, names);
   write_text_file(folder / "compare.gp", script);

@@ -24,17 +24,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code failed;
-  fs::create_directories(folder.empty() ? "." : folder, failed);
-  if (!failed) return;
-  throw Error({.code = ErrorCode::io,
-               .what = "cannot be made: " + failed.message(),
-               .where = folder.string(),
-               .limit = "",
-               .remedy = "name another output folder with --out"});
-}
-
 /// Share done and time left of a whole bake, from the shares of its jobs.
 class BakeMeter {
  public:

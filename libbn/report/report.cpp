@@ -46,17 +46,6 @@ void check_options(const ReportOptions& options) {
   }
 }
 
-void make_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directory(folder, error);
-  if (!error) return;
-  throw Error({.code = ErrorCode::io,
-               .what = fmt::format("cannot be made: {}", error.message()),
-               .where = folder.string(),
-               .limit = "",
-               .remedy = "choose another folder"});
-}
-
 /// A name for files: letters and digits of `name`, the rest as single hyphens; never one that is in `taken`.
 std::string file_name_for(const std::string& name, std::set<std::string>& taken) {
   std::string base;

@@ -2,10 +2,13 @@
 // radii against the proven optimum, and throughput against threads. Runs are
 // made one after another on one thread each, so that their times compare.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <functional>
+#include <iterator>
 #include <memory>
 
 #include "bn/anneal.h"
@@ -21,6 +24,15 @@ double cpu_seconds() {
 }
 
 }  // namespace
+
+std::string runs_csv(const std::vector<AnnealStudyRun>& runs) {
+  std::string text = "schedule,radius,proposals,seed,seconds,energy\n";
+  for (const AnnealStudyRun& r : runs) {
+    fmt::format_to(std::back_inserter(text), "{},{},{},{},{:.4f},{}\n", r.schedule, r.radius, r.proposals,
+                   r.seed, r.cpu_seconds, r.energy);
+  }
+  return text;
+}
 
 AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOptions& options,
                          const Execution& execution) {

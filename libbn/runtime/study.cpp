@@ -69,7 +69,7 @@ void run_study(const StudyOptions& options, const TemporalTextures& textures,
   ProgressMeter progress(execution, static_cast<std::uint64_t>(work));
   std::vector<SceneResult> results;
   for (std::size_t i = 0; i < stages.size(); ++i) {
-    std::filesystem::create_directories(stages[i].folder);
+    make_folder(stages[i].folder);
     results.push_back(study_scene(stages[i], variants, references[i], progress));
     write_pictures(results.back(), stages[i].folder);
     for (Sequence& sequence : results.back().sequences) sequence.drop_pictures();

@@ -101,7 +101,7 @@ int References::work() const {
 }
 
 void References::render(ProgressMeter& progress) {
-  std::filesystem::create_directories(folder_);
+  make_folder(folder_);
   for (int view = 0; view < views(); ++view) {
     if (read(view)) continue;
     const RenderSettings settings = settings_of(stage_, frame_of_view_[static_cast<std::size_t>(view)]);

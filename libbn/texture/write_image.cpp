@@ -105,6 +105,17 @@ std::vector<unsigned char> encode_png(const Image& image) {
 
 void check_text_writable(const std::filesystem::path& path) { texture::check_replaceable(path); }
 
+void make_folder(const std::filesystem::path& path) {
+  std::error_code failed;
+  std::filesystem::create_directories(path.empty() ? "." : path, failed);
+  if (!failed) return;
+  throw Error({.code = ErrorCode::io,
+               .what = "cannot be made: " + failed.message(),
+               .where = path.string(),
+               .limit = "",
+               .remedy = "name another output folder"});
+}
+
 void write_text_file(const std::filesystem::path& path, std::string_view text) {
   texture::write_file(path, std::as_bytes(std::span(text)));
 }

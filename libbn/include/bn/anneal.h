@@ -380,6 +380,9 @@ struct AnnealStudyRun {
   double cpu_seconds = 0.0;  ///< one thread
   std::int64_t energy = 0;
 };
+/// A line a run under a line of names: schedule,radius,proposals,seed,seconds,energy.
+std::string runs_csv(const std::vector<AnnealStudyRun>& runs);
+
 struct AnnealStudyExact {
   int radius = 0;
   double cpu_seconds = 0.0;

@@ -108,19 +108,24 @@ FileContent read_image(const std::filesystem::path& path, const Execution& execu
 /// Errors: io; invalid_input (an extension, sample type or shape that the format cannot hold).
 void write_image(const std::filesystem::path& path, const Image& image, Metadata metadata);
 
-/// Whether name `a` comes before `b` as people order names: digits by their value, so slice_2 before slice_10.
+/// Whether name `a` comes before `b` as people order names: digits by their value, so slice_2 before
+/// slice_10.
 bool natural_less(std::string_view a, std::string_view b);
 
 /// Throws what write_image() would throw for this path and type, without writing: unknown
 /// extension, unfit sample type, missing folder, no permission. Call it before the work starts.
 void check_writable(const std::filesystem::path& path, SampleType type, int channels);
 
-/// A PNG in memory, without metadata, for embedding. 8bit or 16bit; 1, 3 or 4 channels. The same bytes for equal
-/// images and one version of the libraries. Errors: invalid_input (a type or shape that PNG cannot hold).
+/// A PNG in memory, without metadata, for embedding. 8bit or 16bit; 1, 3 or 4 channels. The same bytes for
+/// equal images and one version of the libraries. Errors: invalid_input (a type or shape that PNG cannot
+/// hold).
 std::vector<unsigned char> encode_png(const Image& image);
 
 /// The same crash-safe path for text: manifests, CSV, HTML. Errors: io.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+/// Makes a folder and those above it, where they are missing; "" is the current one. Errors: io.
+void make_folder(const std::filesystem::path& path);
 
 /// Throws what write_text_file() would throw for this path, without writing.
 void check_text_writable(const std::filesystem::path& path);
@@ -146,8 +151,8 @@ Image atlas_tile(const Image& atlas, Extent tile_size, int index);
 /// One channel as it is stored, for analysis.
 struct ChannelSamples {
   std::vector<double> value;
-  /// What an even spread of samples covers: 8bit 0..256, 16bit 0..65536, float 0..1, or least..greatest sample
-  /// where floats leave 0..1.
+  /// What an even spread of samples covers: 8bit 0..256, 16bit 0..65536, float 0..1, or least..greatest
+  /// sample where floats leave 0..1.
   double low = 0.0, high = 1.0;
 };
 
