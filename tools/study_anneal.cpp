@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "bn/anneal.h"
+#include "bn/report.h"
 #include "bn/texture.h"
 #include "tools/verb.h"
 
@@ -267,6 +268,18 @@ void measure_motions(const Settings& settings, const Subject& subject, Session& 
                   thread_count(session.execution)));
 }
 
+constexpr std::string_view kFigures =
+#include "tools/study_anneal.gnuplot.inc"
+    ;
+
+/// The figures of all data in the folder, those of earlier parts too.
+std::string figures(const Settings& settings, const std::vector<std::string>& schedules) {
+  const auto stands = [&](const char* file) { return std::filesystem::exists(settings.out / file) ? 1 : 0; };
+  return fmt::format("schedules = \"{}\"\nradius = {}\nruns = {}\ntraces = {}\nthroughput = {}\n\n{}",
+                     fmt::join(schedules, " "), settings.radii.front(), stands("medians.csv"),
+                     stands("surface.csv"), stands("throughput.csv"), kFigures);
+}
+
 void run(const Settings& settings, Session& session) {
   const Subject subject = subject_of(settings, session.execution);
   make_folder(settings.out);
@@ -275,8 +288,9 @@ void run(const Settings& settings, Session& session) {
   if (settings.wants(Part::throughput)) measure_throughput(settings, session);
   if (settings.wants(Part::costs)) measure_costs(settings, subject, session);
   if (settings.wants(Part::motions)) measure_motions(settings, subject, session);
-  session.progress.note(
-      fmt::format("figures: run gnuplot in {} with scripts/gnuplot/anneal.gp", settings.out.string()));
+  const std::string failure =
+      draw_figures(settings.out, figures(settings, subject.schedules), session.execution);
+  if (!failure.empty()) session.progress.note("no figures: " + failure);
 }
 
 }  // namespace
@@ -287,16 +301,19 @@ Verb study_anneal_verb() {
   verb.name = "study anneal";
   verb.summary = "Measure annealing's schedules against the proven optimum.";
   verb.examples = {
-      {"bn study anneal mask.png --step 48,36 -o study", "the data of docs/annealing.md, about ten minutes"},
-      {"bn study anneal mask.png --part throughput -o study", "proposals a second only, ten seconds"},
-      {"cd study && gnuplot ../scripts/gnuplot/anneal.gp", "its figures, as SVG"}};
+      {"bn study anneal mask.png --step 48,36 -o study",
+       "the data and figures of docs/annealing.md, about ten minutes"},
+      {"bn study anneal mask.png --part throughput -o study", "proposals a second only, ten seconds"}};
   verb.details =
       "Anneals one channel by every schedule with budgets from a million proposals upwards, several seeds "
       "and radii each, and solves each radius exactly. Runs are made one after another on one thread; times "
       "are processor time. Writes runs.csv, medians.csv and table.md (printed too). traces: a trace of each "
       "schedule, and surface.csv (acceptance over step and worsening). throughput: proposals a second by "
       "engine, temperature and threads, throughput.csv. costs: of a trace and of checkpoints, costs.csv. "
-      "motions: all 81, by the clock on the wall, motions.csv.";
+      "motions: all 81, by the clock on the wall, motions.csv.\n\n"
+      "gnuplot draws the figures of all data in the folder, as SVG, by the script figures.gp that is left "
+      "there; without gnuplot a note says what to install. Parts measured one by one into the same folder "
+      "come together.";
   verb.arguments.positional("IMAGE", settings->image, file_path(),
                             "The mask: any image that OpenImageIO reads.");
   verb.arguments.option("--channel", settings->channel, integer_in(0, 63), "The channel to use, 0 for red.");

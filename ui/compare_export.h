@@ -1,4 +1,4 @@
-// Runs as files: the CSV that bn study anneal writes, and a gnuplot script that makes their figure.
+// Runs as files: the CSV that bn study anneal writes, and their figures.
 
 #pragma once
 
@@ -23,8 +23,8 @@ struct ExportedRun {
   std::string trace_csv;
 };
 
-/// Writes runs.csv, trace_NAME.csv of each run and compare.gp, and has gnuplot make the SVG figures if it is
-/// installed. Makes `folder` if it is missing. Returns what was done, for the status line. Errors: io.
+/// Writes runs.csv, trace_NAME.csv of each run, and their figures (bn/report.h, draw_figures()). Makes
+/// `folder` if it is missing. Returns what was done, for the status line. Errors: io, cancelled.
 std::string export_runs(const std::vector<ExportedRun>& runs, const std::filesystem::path& folder,
                         const Execution& execution = {});
 

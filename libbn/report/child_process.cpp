@@ -1,4 +1,4 @@
-// Running gnuplot.
+// Running another program.
 //
 // Its three streams are files in memory, so that no pipe can fill up and block either side, and waiting is
 // all that is left to do. It gets a process group of its own: a kill reaches what it may have started, and
@@ -103,7 +103,8 @@ std::optional<std::filesystem::path> find_program(std::string_view name) {
 }
 
 ChildResult run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      std::string_view input, std::chrono::milliseconds limit, std::stop_token stop) {
+                      std::string_view input, std::chrono::milliseconds limit, std::stop_token stop,
+                      const std::filesystem::path& folder) {
   const MemoryFile in("stdin"), out("stdout"), err("stderr");
   in.fill(input);
   std::string name = program.string();
@@ -119,6 +120,7 @@ ChildResult run_child(const std::filesystem::path& program, const std::vector<st
   posix_spawn_file_actions_adddup2(&actions, in.get(), STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out.get(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.get(), STDERR_FILENO);
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);

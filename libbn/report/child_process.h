@@ -23,9 +23,10 @@ struct ChildResult {
   std::string errors;      ///< its stderr
 };
 
-/// Runs `program` with `input` as its stdin. Its locale is C whatever ours is. Killed at the limit or when
-/// `stop` is requested, with every process it has started.
+/// Runs `program` in `folder` ("" for the current one) with `input` as its stdin. Its locale is C whatever
+/// ours is. Killed at the limit or when `stop` is requested, with every process it has started.
 ChildResult run_child(const std::filesystem::path& program, const std::vector<std::string>& arguments,
-                      std::string_view input, std::chrono::milliseconds limit, std::stop_token stop);
+                      std::string_view input, std::chrono::milliseconds limit, std::stop_token stop,
+                      const std::filesystem::path& folder = {});
 
 }  // namespace bn::report

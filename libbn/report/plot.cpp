@@ -10,12 +10,11 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <iterator>
 #include <string_view>
 
-#include "report/child_process.h"
+#include "report/gnuplot.h"
 
 namespace bn::report {
 namespace {
@@ -71,8 +70,6 @@ const StyleFile& style_file(PlotStyle style) {
 }
 
 PlotSize size_of(const Plot& plot) { return plot.wide ? kHalfOfThePage : style_file(plot.style).size; }
-
-constexpr std::chrono::seconds kTimeLimit{60};
 
 /// Line styles of common.gnuplot.
 int line_style(const Curve& curve) {
@@ -192,16 +189,9 @@ std::string to_csv(const Plot& plot) {
 
 Drawing draw(const std::vector<Plot>& plots, std::stop_token stop) {
   Drawing drawing;
-  const auto gnuplot = find_program("gnuplot");
-  if (!gnuplot) {
-    drawing.failure =
-        "gnuplot is not installed, so the curves are in tables only (Debian: apt-get install gnuplot-nox)";
-    return drawing;
-  }
-  // -d: no settings of the user's.
-  const ChildResult run = run_child(*gnuplot, {"-d", "-"}, script_of(plots), kTimeLimit, stop);
-  if (!run.succeeded) {
-    drawing.failure = fmt::format("gnuplot {}, so there are no plots", run.failure);
+  const GnuplotResult run = run_gnuplot(script_of(plots), {}, stop);
+  if (!run.failure.empty()) {
+    drawing.failure = run.failure;
     return drawing;
   }
   std::string_view rest = run.output;
@@ -219,8 +209,7 @@ Drawing draw(const std::vector<Plot>& plots, std::stop_token stop) {
     rest.remove_prefix(end + kEnd.size());
   }
   if (drawing.svg.size() != plots.size()) {
-    drawing.failure =
-        fmt::format("gnuplot drew {} of {} plots, so there are none", drawing.svg.size(), plots.size());
+    drawing.failure = fmt::format("gnuplot drew {} of {} plots", drawing.svg.size(), plots.size());
     drawing.svg.clear();
   }
   return drawing;

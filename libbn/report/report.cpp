@@ -148,7 +148,7 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
   }
   const report::Drawing drawing = report::draw(plots, execution.stop);
   throw_if_stopped(execution);
-  if (!drawing.failure.empty()) page.notes.push_back(drawing.failure);
+  if (!drawing.failure.empty()) page.notes.push_back("No plots: " + drawing.failure);
   if (!options.csv_dir.empty()) make_folder(options.csv_dir);
   write_text_file(options.out, report::page_html(page, drawing.svg));
 

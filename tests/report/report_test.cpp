@@ -1,5 +1,5 @@
 // Protects: a page that is whole without gnuplot, safe whatever files hold, the same bytes each time; errors
-// before work.
+// before work; figures as files, or a word why there are none.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -66,6 +66,26 @@ TEST(Child, PassesMuchInputAndOutputAndReportsFailure) {
   EXPECT_EQ(run_child("/bin/cat", {}, much, std::chrono::seconds(60), {}).output, much);
   EXPECT_FALSE(run_child("/bin/false", {}, "", std::chrono::seconds(60), {}).succeeded);
   EXPECT_FALSE(run_child("/nowhere/at/all", {}, "", std::chrono::seconds(60), {}).succeeded);
+}
+
+TEST(Figures, StandAsFilesOrSayWhyNot) {
+  TemporaryFolder folder;
+  const std::string script = "set output 'a.svg'\nplot x linestyle 1\n";
+  const std::string path = std::getenv("PATH");
+  ::setenv("PATH", "", 1);
+  const std::string failure = draw_figures(folder.path(), script);
+  ::setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(failure.find("gnuplot is not installed"), 0u) << failure;
+  // By hand then, later.
+  EXPECT_NE(bytes_of(folder / kFigureScript).find(script), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
+  if (!find_program("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
+  EXPECT_EQ(draw_figures(folder.path(), script), "");
+  EXPECT_NE(bytes_of(folder / "a.svg").find("</svg>"), std::string::npos);
+  EXPECT_NE(draw_figures(folder.path(), "plot nothing").find("nothing"), std::string::npos);
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_THROW(draw_figures(folder.path(), script, {.stop = stop.get_token()}), Error);
 }
 
 TEST(Plot, CsvQuotesNamesAndKeepsEveryDigit) {

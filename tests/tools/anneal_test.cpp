@@ -1,5 +1,6 @@
 // Protects: bn retarget --method anneal makes a tile that verifies, goes on after Ctrl-C with the same bytes,
-// and refuses bad settings and foreign checkpoints with exit code 3 before anything is overwritten.
+// and refuses bad settings and foreign checkpoints with exit code 3 before anything is overwritten; the study
+// of annealing makes its figures where gnuplot is installed.
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -213,6 +214,22 @@ TEST_F(AnnealVerb, FlagsOfAnnealingNeedIt) {
   const auto result = run({"retarget", "m.png", "--schedule", "linear"});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_NE(result.err.find("--schedule: given without annealing"), std::string::npos) << result.err;
+}
+
+TEST_F(AnnealVerb, TheStudyMakesItsFigures) {
+  write_image(scratch_ / "small.png", simple_mask(8), {});
+  const std::vector<std::string> words{"study",   "anneal", "small.png", "--step", "3,1",
+                                       "--radii", "2",      "--budgets", "1",      "--seeds",
+                                       "2",       "-o",     "study",     "--part", "runs"};
+  auto result = run_bn(words, {.folder = scratch_.path(), .shell_prefix = "export PATH=/nowhere"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("no figures: gnuplot is not installed"), std::string::npos) << result.err;
+  EXPECT_EQ(result.out, read_bytes(scratch_ / "study/table.md"));
+  result = run(words);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  if (result.err.find("gnuplot is not installed") != std::string::npos) GTEST_SKIP() << result.err;
+  EXPECT_EQ(result.err.find("no figures"), std::string::npos) << result.err;
+  EXPECT_NE(read_bytes(scratch_ / "study/error_against_time.svg").find("kirkpatrick"), std::string::npos);
 }
 
 }  // namespace

@@ -217,7 +217,7 @@ wait-for "Energy 1" gone
   const std::string trace = text_of(here / "out/trace_1-exponential.csv");
   EXPECT_TRUE(trace.starts_with(AnnealTrace().csv())) << trace.substr(0, 100);
   EXPECT_GT(std::count(trace.begin(), trace.end(), '\n'), 100);
-  EXPECT_TRUE(std::filesystem::exists(here / "out/compare.gp"));
+  EXPECT_TRUE(std::filesystem::exists(here / "out/figures.gp"));
   const Image shot = read_image(here / "compare.png").image;
   EXPECT_GT(contrast(shot, {0.55, 0.45, 0.95, 0.9}), 50.0) << "the split picture";
 }

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bn/core.h"
@@ -54,5 +55,17 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
 /// invalid_input (no study there), cancelled.
 void write_study_report(const std::filesystem::path& study, const std::filesystem::path& out,
                         const Execution& execution = {});
+
+// --- figures as files ------------------------------------------------------------------------------
+
+/// What draw_figures() leaves beside the data.
+inline constexpr const char* kFigureScript = "figures.gp";
+
+/// Writes `script` behind the common look of figures (SVG; line styles 1..7) into `folder` as kFigureScript
+/// and has gnuplot run it there. Returns why there are no figures, "gnuplot is not installed ..." for one, or
+/// nothing if they stand: data without figures are no error. Ended after 60 s. Names in `script` are the
+/// caller's to quote. Errors: io, cancelled.
+std::string draw_figures(const std::filesystem::path& folder, std::string_view script,
+                         const Execution& execution = {});
 
 }  // namespace bn

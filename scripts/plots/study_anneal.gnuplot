@@ -1,0 +1,89 @@
+# Figures of bn study anneal. Before this stand
+#   schedules: their names, apart by spaces; radius: the one to show
+#   runs, traces, throughput: 1 where the CSV files of that part stand
+if (runs) {
+# Columns of medians.csv: schedule,radius,proposals,seconds,excess_low,excess_median,excess_high
+set output "error_against_time.svg"
+set title "Energy above the proven optimum, radius ".radius.": median and range over seeds"
+set xlabel "time on one core, s"
+set ylabel "above the optimum, %"
+set logscale xy
+# No logarithm holds the optimum itself.
+shown(excess) = excess > 0.01 ? excess : 0.01
+set ytics add ("0.01 or less" 0.01)
+plot for [i=1:words(schedules)] "medians.csv" skip 1 \
+  using 4:(strcol(1) eq word(schedules, i) && $2 == radius ? shown($6) : NaN):(shown($5)):(shown($7)) \
+  with yerrorlines ls i title word(schedules, i)
+unset logscale
+set ytics auto
+}
+
+if (traces) {
+# Columns of traces: step,seconds,temperature,energy,best,lower_bound,accepted,...; a bound of 0 is none. The
+# first points are the fall from the start, which no axis shows beside the rest.
+trace(i) = "trace_".word(schedules, i).".csv"
+set xlabel "proposals, 10^9"
+set xrange [0:*]
+set logscale y
+
+set output "run_energy.svg"
+set title "Energy during a run"
+set ylabel "energy above the proven optimum, %"
+plot for [i=1:words(schedules)] trace(i) skip 3 using ($1/1e9):($6 > 0 ? 100.0*($4-$6)/$6 : $4) \
+  with lines ls i title word(schedules, i)
+
+set output "run_temperature.svg"
+set title "Temperature during a run (greedy: 0)"
+set ylabel "temperature, levels"
+plot for [i=1:words(schedules)] trace(i) skip 3 using ($1/1e9):($3 > 0 ? $3 : NaN) with lines ls i title word(schedules, i)
+
+set output "run_acceptance.svg"
+set title "Accepted share of all proposals during a run"
+set ylabel "accepted share"
+plot for [i=1:words(schedules)] trace(i) skip 3 using ($1/1e9):($7 > 0 ? $7 : NaN) with lines ls i title word(schedules, i)
+unset logscale
+
+# surface.csv: step,worsening_class,share on a full grid; NaN where fewer than eight were tried.
+set output "acceptance_surface.svg"
+set title "Accepted share of worsening swaps, exponential, from a start that accepts everything\n{/*0.9 grey: fewer than eight tried}"
+set ylabel "rise of the energy, levels"
+set cblabel "accepted share (white: none, or less than 0.001)"
+set ytics ("1" 0, "2–3" 1, "4–7" 2, "8–15" 3, "16–31" 4, "32–63" 5, "64–127" 6, "128–255" 7, "256–511" 8)
+set logscale cb
+set cbrange [1e-3:1]
+set xrange [*:*] noextend
+set yrange [-0.5:8.5]
+set key off
+unset grid
+set palette defined (0 "white", 0.25 "#c6dbef", 0.6 "#6baed6", 1 "#08306b")
+set object 1 rectangle from graph 0, graph 0 to graph 1, graph 1 behind fillcolor rgb "#e4e4e4" fillstyle solid noborder
+plot "surface.csv" skip 1 using ($1/1e9):2:($3 > 0.001 ? $3 : $3 >= 0 ? 0.001 : NaN) with image pixels
+unset object 1
+unset logscale
+set ytics auto
+set key on
+set grid
+set autoscale
+}
+
+if (throughput) {
+# Columns of throughput.csv: engine,side,threads,temperature,proposals_per_second
+set output "threads.svg"
+set title "Throughput against threads, 512 × 512 at constant temperature"
+set xlabel "threads"
+set ylabel "proposals a second, 10^9"
+set xrange [0:*]
+set yrange [0:*]
+set xtics 1
+set key inside left top
+temperatures = "3 0.5"
+at(i) = word(temperatures, i)
+array alone[2]
+do for [i=1:2] {
+  stats "throughput.csv" skip 1 using ($2 == 512 && $3 == 1 && $4 == at(i) ? $5/1e9 : NaN) nooutput
+  alone[i] = STATS_max
+}
+plot for [i=1:2] "throughput.csv" skip 1 using ($2 == 512 && $4 == at(i) ? $3 : NaN):($5/1e9) \
+    with linespoints ls i ps 1 title "T = ".at(i), \
+  for [i=1:2] alone[i]*x ls i lw 1 dt 2 title i == 1 ? "as many times one thread" : ""
+}
