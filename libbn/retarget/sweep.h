@@ -60,7 +60,7 @@ struct ReachBytes {
             wrap_centred(z - bias, period_z)};
   }
   bool allows(int x, int y, int z) const {
-    if (!euclidean) return x <= limit && y <= limit && z <= limit;
+    if (!euclidean) return std::max(std::max(x, y), z) <= limit;
     const int a = std::min(x, period_x - x), b = std::min(y, period_y - y), c = std::min(z, period_z - z);
     return a * a + b * b + c * c <= limit;
   }
@@ -231,30 +231,37 @@ struct SweepCounts {
   std::int64_t change = 0;  ///< of the energy
 };
 
-/// The sweep, pair by pair.
-template <Metric metric, class Lane>
+/// The sweep, pair by pair. Random bits decide only between the changes that any bits accept and those that
+/// none do.
+template <Metric metric, bool kVolume, class Lane>
 void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, const Sweep& sweep,
                    const Band& band, SweepCounts& result, WorseningCounts* worsenings) {
   const Shift s = sweep.s;
   const ReachBytes& reach = state.reach;
-  const int plus_x = wrap(s.x, reach.period_x), plus_y = wrap(s.y, reach.period_y),
-            plus_z = wrap(s.z, reach.period_z);
+  const int plus_x = wrap(s.x, reach.period_x), minus_x = wrap(-s.x, reach.period_x),
+            plus_y = wrap(s.y, reach.period_y), minus_y = wrap(-s.y, reach.period_y),
+            plus_z = wrap(s.z, reach.period_z), minus_z = wrap(-s.z, reach.period_z);
+  // Both below the period.
+  const auto moved = [](int byte, int by, int period) {
+    return byte + by < period ? byte + by : byte + by - period;
+  };
   const auto cost = [](Lane a, Lane b) {
     return level_cost(static_cast<std::int32_t>(a), static_cast<std::int32_t>(b), metric);
   };
+  const std::int64_t most = metropolis_threshold(0, sweep.temperature);
   const auto propose = [&](int x, int y, int q_y) {
     const int q_x = x + s.x < state.width ? x + s.x : x + s.x - state.width;
     ++result.counts.proposals;
     const int p_bytes = static_cast<int>(state.row(state.bytes, y)[x]);
     const int q_bytes = static_cast<int>(state.row(state.bytes, q_y)[q_x]);
-    const int to_q_x = wrap((p_bytes & 255) + plus_x, reach.period_x);
-    const int to_q_y = wrap((p_bytes >> 8 & 255) + plus_y, reach.period_y);
-    const int to_p_x = wrap((q_bytes & 255) - plus_x, reach.period_x);
-    const int to_p_y = wrap((q_bytes >> 8 & 255) - plus_y, reach.period_y);
+    const int to_q_x = moved(p_bytes & 255, plus_x, reach.period_x);
+    const int to_q_y = moved(p_bytes >> 8 & 255, plus_y, reach.period_y);
+    const int to_p_x = moved(q_bytes & 255, minus_x, reach.period_x);
+    const int to_p_y = moved(q_bytes >> 8 & 255, minus_y, reach.period_y);
     int to_q_z = reach.bias, to_p_z = reach.bias;
-    if (state.bytes_z) {
-      to_q_z = wrap(static_cast<int>(state.row(state.bytes_z, y)[x]) + plus_z, reach.period_z);
-      to_p_z = wrap(static_cast<int>(state.row(state.bytes_z, q_y)[q_x]) - plus_z, reach.period_z);
+    if constexpr (kVolume) {
+      to_q_z = moved(static_cast<int>(state.row(state.bytes_z, y)[x]), plus_z, reach.period_z);
+      to_p_z = moved(static_cast<int>(state.row(state.bytes_z, q_y)[q_x]), minus_z, reach.period_z);
     }
     if (!reach.allows(to_q_x, to_q_y, to_q_z) || !reach.allows(to_p_x, to_p_y, to_p_z)) return;
 
@@ -265,7 +272,9 @@ void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, cons
       change +=
           std::int64_t{state.weight[c]} * (cost(v_p, t_q) + cost(v_q, t_p) - cost(v_p, t_p) - cost(v_q, t_q));
     }
-    const bool taken = change <= metropolis_threshold(pair_bits(sweep, state.width, x, y), sweep.temperature);
+    const bool taken =
+        change <= 0 || (change <= most && change <= metropolis_threshold(pair_bits(sweep, state.width, x, y),
+                                                                         sweep.temperature));
     if (worsenings != nullptr) worsenings->count(change, taken);
     if (!taken) return;
     for (int c = 0; c < state.channels; ++c) {
@@ -273,7 +282,7 @@ void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, cons
     }
     state.row(state.bytes, y)[x] = static_cast<Lane>(to_p_x | to_p_y << 8);
     state.row(state.bytes, q_y)[q_x] = static_cast<Lane>(to_q_x | to_q_y << 8);
-    if (state.bytes_z) {
+    if constexpr (kVolume) {
       state.row(state.bytes_z, y)[x] = static_cast<Lane>(to_p_z);
       state.row(state.bytes_z, q_y)[q_x] = static_cast<Lane>(to_q_z);
     }
@@ -297,8 +306,11 @@ void sweep_plainly(SweepState<Lane>& state, const AnnealInstance& instance, cons
     state.repeat(y);
     state.repeat(q_y);
   };
-  if (state.depth == 1) return for_each_row_pair(sweep, band, state.height, rows);
-  for_each_volume_row_pair(sweep, band, state.slice_height, state.depth, instance.options.wrap, rows);
+  if constexpr (kVolume) {
+    for_each_volume_row_pair(sweep, band, state.slice_height, state.depth, instance.options.wrap, rows);
+  } else {
+    for_each_row_pair(sweep, band, state.height, rows);
+  }
 }
 
 /// The same on the best instruction set; `first_partner` is starts_pair() of each column as -1 or 0, used

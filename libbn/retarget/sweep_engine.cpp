@@ -158,8 +158,9 @@ class SweepEngine final : public AnnealEngine {
                      const Sweep sweep = sweep_of(instance_, seed_, chain_, round, i, bands[b], t);
                      const bool watch = worsenings != nullptr && i >= end - worsenings->sweeps;
                      if (watch || kernel_ == nullptr) {
-                       sweep_plainly<metric>(state_, instance_, sweep, bands[b], results[b],
-                                             watch ? &watched[b] : nullptr);
+                       const auto plainly = state_.depth > 1 ? sweep_plainly<metric, true, Lane>
+                                                             : sweep_plainly<metric, false, Lane>;
+                       plainly(state_, instance_, sweep, bands[b], results[b], watch ? &watched[b] : nullptr);
                      } else {
                        kernel_(state_, instance_, sweep, bands[b], results[b]);
                      }

@@ -24,7 +24,7 @@ namespace bn::HWY_NAMESPACE {
 template <Metric metric, bool kSingle, bool kVolume, class Lane>
 void sweep_band(SweepState<Lane>& state, const AnnealInstance& instance, const Sweep& sweep, const Band& band,
                 SweepCounts& result) {
-  sweep_plainly<metric>(state, instance, sweep, band, result, nullptr);
+  sweep_plainly<metric, kVolume>(state, instance, sweep, band, result, nullptr);
 }
 
 #else

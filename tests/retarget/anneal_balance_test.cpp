@@ -43,6 +43,16 @@ TEST(Metropolis, ThresholdsFollowTheExponential) {
   }
 }
 
+TEST(Metropolis, ThresholdsLieBetweenZeroAndThatOfBitsZero) {
+  // So bits need not be drawn for a change that is no rise, nor for one above the threshold of bits 0.
+  const float most = minus_log(0);
+  for (std::uint64_t bits = 0; bits < (std::uint64_t{1} << 32); bits += 512) {
+    const float log = minus_log(static_cast<std::uint32_t>(bits));
+    ASSERT_GE(log, 0.0f);
+    ASSERT_LE(log, most);
+  }
+}
+
 TEST(Metropolis, TheLogarithmIsAsAccurateAsStated) {
   for (std::uint64_t bits = 0; bits < (std::uint64_t{1} << 32); bits += 0x1357) {
     const double u = (static_cast<double>(bits >> 9) + 0.5) * 0x1p-23;
