@@ -231,11 +231,14 @@ void measure_costs(const Settings& settings, const Subject& subject, Session& se
   std::error_code ignored;
   std::filesystem::remove(file, ignored);
   session.progress.finish();
-  write_text_file(settings.out / "costs.csv", fmt::format("what,share\ntrace,{:.5f}\ncheckpoints,{:.6f}\n",
-                                                          costs.trace, costs.checkpoints));
-  session.output.write(fmt::format("trace {:.2f} %, checkpoints {:.3f} % ({:.2g} ms and {} bytes each)\n",
-                                   100.0 * costs.trace, 100.0 * costs.checkpoints, 1e3 * costs.save_seconds,
-                                   costs.checkpoint_bytes));
+  write_text_file(
+      settings.out / "costs.csv",
+      fmt::format("what,share\ntrace,{:.5f}\ntrace_low,{:.5f}\ntrace_high,{:.5f}\ncheckpoints,{:.6f}\n",
+                  costs.trace, costs.trace_low, costs.trace_high, costs.checkpoints));
+  session.output.write(fmt::format(
+      "trace {:.2f} % (95 % interval {:.2f}..{:.2f}), checkpoints {:.3f} % ({:.2g} ms and {} bytes each)\n",
+      100.0 * costs.trace, 100.0 * costs.trace_low, 100.0 * costs.trace_high, 100.0 * costs.checkpoints,
+      1e3 * costs.save_seconds, costs.checkpoint_bytes));
 }
 
 /// All 81 motions, on all threads, by the clock on the wall.

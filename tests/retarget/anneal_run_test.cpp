@@ -288,6 +288,13 @@ TEST(Anneal, TraceIsReadWhileItGrows) {
   const std::string csv = trace.csv(7);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), trace.size() + 1);
   EXPECT_EQ(csv.rfind("step,seconds,temperature,energy,best,lower_bound,accepted,worse_1_tried", 0), 0u);
+
+  // Sweeps were watched, few of them, and they are what they would have been.
+  int watched = 0;
+  for (std::size_t p = 0; p < trace.size(); ++p) watched += trace[p].worsening_tried[1] > 0;
+  EXPECT_GT(watched, 1);
+  EXPECT_LE(watched, 1 + options.proposals / (problem.channels[0].levels.size().area() / 2) / 8192);
+  EXPECT_EQ(anneal_retarget(problem, options, {.threads = 1}).tile.move, result.tile.move);
 }
 
 TEST(Anneal, TheMotionSetIsItsVariants) {

@@ -202,7 +202,8 @@ struct TracePoint {
   std::int64_t energy = 0;       ///< of the traced chain, now
   std::int64_t best_energy = 0;  ///< of any chain, so far
   double accepted_share = 0.0;   ///< of the proposals since the point before
-  /// Worsening swaps within reach, in one sweep at this point; all 0 where sampling it would slow the run.
+  /// Worsening swaps within reach, of one sweep since the point before. Counting slows a sweep, so one in
+  /// 8192 at most is counted: all 0 at the points between, and throughout a run of fewer sweeps.
   std::array<std::int64_t, kWorseningClasses> worsening_tried{};
   std::array<std::int64_t, kWorseningClasses> worsening_accepted{};
 };
@@ -413,9 +414,12 @@ std::vector<AnnealThroughput> study_anneal_throughput(const Execution& execution
 
 /// What watching and saving cost, as shares of a run's time.
 struct AnnealCosts {
-  double trace = 0.0;         ///< median over pairs of runs, with a trace and without, processor time
-  double save_seconds = 0.0;  ///< one checkpoint, encoded and handed to `save`; median
-  double checkpoints = 0.0;   ///< save_seconds over the default interval
+  /// Of a trace, read while it grows or not: median over 101 ratios of processor times, each of two runs with
+  /// a trace and two without, of 1e8 proposals.
+  double trace = 0.0;
+  double trace_low = 0.0, trace_high = 0.0;  ///< 95 % confidence interval of that median
+  double save_seconds = 0.0;                 ///< one checkpoint, encoded and handed to `save`; median
+  double checkpoints = 0.0;                  ///< save_seconds over the default interval
   std::size_t checkpoint_bytes = 0;
 };
 AnnealCosts study_anneal_costs(const AnnealProblem& problem,
