@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bn/core.h"
@@ -36,6 +37,10 @@ struct EnergyField {
     const int block = (y >> kBlockShift) * blocks_x + (x >> kBlockShift);
     const int in_block = (y & (kBlockSide - 1)) * kBlockSide + (x & (kBlockSide - 1));
     return blocks[static_cast<std::size_t>(block)].energy[in_block];
+  }
+  /// The memory of all energies, for another use when they are needed no more.
+  std::span<std::uint32_t> memory() {
+    return {reinterpret_cast<std::uint32_t*>(blocks.data()), blocks.size() * kBlockPixels};
   }
   /// Recomputes every block's minimum, after energies were written.
   void update_minima();

@@ -1,18 +1,22 @@
-// From energies to ranks.
+// From the energies that pixels had when they were set to their ranks.
 
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "bn/core.h"
+#include "noise/gaussian_kernel.h"
 
 namespace bn {
 
-/// A value that takes part in no order.
+/// An energy that takes part in no order.
 inline constexpr std::uint32_t kUnranked = UINT32_MAX;
 
-/// Replaces every value by its place in the order of (value, index), from 0; kUnranked stays. Needs 8
-/// bytes for each value meanwhile.
-void replace_by_ranks(Grid<std::uint32_t>& values, const Execution& execution);
+/// Replaces every energy, which is below kSetMark, by its place in the order of (energy, index), from 0;
+/// kUnranked stays. `room` is for as many energies as are ranked; up to another 4 bytes each are needed
+/// meanwhile.
+void replace_by_ranks(Grid<std::uint32_t>& energies, std::span<std::uint32_t> room,
+                      const Execution& execution);
 
 }  // namespace bn

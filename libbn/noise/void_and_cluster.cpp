@@ -141,13 +141,13 @@ Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const
   const auto count = static_cast<std::uint64_t>(options.size.area());
   const auto initial =
       static_cast<std::uint32_t>(std::floor(options.initial_density * static_cast<double>(count) + 0.5));
-  // Order and energies; then order and, while sorting, 8 bytes a pixel; and what does not grow with the
-  // mask.
+  // Energies and ranks, the latter in either phase, 4 bytes for each that is ranked, and what does not
+  // grow with the mask.
   constexpr std::uint64_t kConstantBytes = std::uint64_t{1} << 20;
-  const std::uint64_t filling = 4 * count + std::max(EnergyField::bytes(options.size), 8 * count);
-  const std::uint64_t removing =
-      initial == 0 ? 0 : 8 * count + std::max(EnergyField::bytes(options.size), std::uint64_t{8} * initial);
-  check_memory(execution, std::max(filling, removing) + kConstantBytes, "void-and-cluster mask");
+  const std::uint64_t filling = 8 * count;
+  const std::uint64_t removing = initial == 0 ? 0 : 8 * count + std::uint64_t{4} * initial;
+  check_memory(execution, EnergyField::bytes(options.size) + std::max(filling, removing) + kConstantBytes,
+               "void-and-cluster mask");
 
   ProgressMeter meter(execution, count + initial);
   const GaussianKernel kernel(options.sigma_px, options.cutoff_px);

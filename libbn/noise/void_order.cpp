@@ -124,26 +124,23 @@ std::vector<Wave> waves_of_sweep(const EnergyField& field) {
 
 Grid<std::uint32_t> void_order(EnergyField&& field, const BlockKernel& kernel, std::int64_t count,
                                const Execution& execution, ProgressMeter& meter) {
+  field.update_minima();
+  const std::vector<Wave> waves = waves_of_sweep(field);
+  const int rounds = rounds_of_visit(field);
   Grid<std::uint32_t> order(field.size, kUnranked);
-  {
-    EnergyField energies = std::move(field);  // freed before the sort takes its memory
-    energies.update_minima();
-    const std::vector<Wave> waves = waves_of_sweep(energies);
-    const int rounds = rounds_of_visit(energies);
-    std::atomic<std::int64_t> set = 0;
-    while (set < count) {
-      for (const Wave& wave : waves) {
-        parallel_for(execution, static_cast<std::int64_t>(wave.size()), [&](std::int64_t i) {
-          throw_if_stopped(execution);
-          const std::int64_t now =
-              fill_tile(energies, kernel, wave[static_cast<std::size_t>(i)], rounds, order.data());
-          set += now;
-          meter.advance(static_cast<std::uint64_t>(now));
-        });
-      }
+  std::atomic<std::int64_t> set = 0;
+  while (set < count) {
+    for (const Wave& wave : waves) {
+      parallel_for(execution, static_cast<std::int64_t>(wave.size()), [&](std::int64_t i) {
+        throw_if_stopped(execution);
+        const std::int64_t now =
+            fill_tile(field, kernel, wave[static_cast<std::size_t>(i)], rounds, order.data());
+        set += now;
+        meter.advance(static_cast<std::uint64_t>(now));
+      });
     }
   }
-  replace_by_ranks(order, execution);
+  replace_by_ranks(order, field.memory(), execution);
   return order;
 }
 
