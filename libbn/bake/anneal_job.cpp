@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
-
 namespace bn {
 namespace {
 
@@ -13,15 +10,7 @@ namespace fs = std::filesystem;
 /// The bytes of a checkpoint file; empty if there is none.
 std::string read_checkpoint(const fs::path& path) {
   if (path.empty() || !fs::exists(path)) return {};
-  std::ifstream file(path, std::ios::binary);
-  std::string bytes(std::istreambuf_iterator<char>(file), {});
-  if (!file.good() && !file.eof()) {
-    throw Error({.code = ErrorCode::io,
-                 .what = "cannot be read",
-                 .where = path.string(),
-                 .limit = "",
-                 .remedy = "remove it to start afresh"});
-  }
+  std::string bytes = read_text_file(path);
   // An empty file is no checkpoint; let the annealer say so.
   return bytes.empty() ? std::string(1, '\0') : bytes;
 }

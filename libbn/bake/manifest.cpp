@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace bn {
@@ -137,15 +135,7 @@ std::string manifest_text(const Manifest& manifest) {
 }
 
 Manifest read_manifest(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    throw Error({.code = ErrorCode::io,
-                 .what = "cannot be opened",
-                 .where = path.string(),
-                 .limit = "",
-                 .remedy = ""});
-  }
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  const std::string text = read_text_file(path);
   try {
     const Json json = Json::parse(text);
     if (json.at("manifest_version") != kManifestVersion) throw std::invalid_argument("of another version");

@@ -122,4 +122,9 @@ FileContent read_image(const std::filesystem::path& path, const Execution& execu
   return content;
 }
 
+std::string read_text_file(const std::filesystem::path& path, const Execution& execution) {
+  const texture::Bytes bytes = texture::read_file(path, execution);
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 }  // namespace bn

@@ -124,6 +124,9 @@ std::vector<unsigned char> encode_png(const Image& image);
 /// The same crash-safe path for text: manifests, CSV, HTML. Errors: io.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
+/// All of a regular file, within the memory limit. Errors: io, over_limit.
+std::string read_text_file(const std::filesystem::path& path, const Execution& execution = {});
+
 /// Makes a folder and those above it, where they are missing; "" is the current one. Errors: io.
 void make_folder(const std::filesystem::path& path);
 
