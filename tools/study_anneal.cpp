@@ -43,10 +43,18 @@ struct Summary {
 };
 using SummaryKey = std::tuple<int, std::size_t, std::int64_t>;  ///< radius, schedule's place, budget
 
+const AnnealStudyExact* exact_of(const AnnealStudy& study, int radius) {
+  const auto found = std::find_if(study.exact.begin(), study.exact.end(),
+                                  [&](const auto& exact) { return exact.radius == radius; });
+  return found == study.exact.end() ? nullptr : &*found;
+}
+
 std::map<SummaryKey, Summary> summarise(const AnnealStudy& study, const std::vector<std::string>& schedules) {
   std::map<SummaryKey, std::vector<const AnnealStudyRun*>> groups;
   for (const auto& run : study.runs) {
     const auto place = std::find(schedules.begin(), schedules.end(), run.schedule) - schedules.begin();
+    // Known runs of radii that were not asked for now have no optimum to be held against.
+    if (exact_of(study, run.radius) == nullptr) continue;
     groups[{run.radius, static_cast<std::size_t>(place), run.proposals}].push_back(&run);
   }
   std::map<SummaryKey, Summary> summaries;
@@ -69,8 +77,7 @@ std::string medians_csv(const AnnealStudy& study, const std::map<SummaryKey, Sum
   std::string text = "schedule,radius,proposals,seconds,excess_low,excess_median,excess_high\n";
   for (const auto& [key, s] : summaries) {
     const auto& [radius, place, proposals] = key;
-    const auto exact = std::find_if(study.exact.begin(), study.exact.end(),
-                                    [r = radius](const auto& e) { return e.radius == r; });
+    const AnnealStudyExact* exact = exact_of(study, radius);
     const auto optimum = static_cast<double>(std::max<std::int64_t>(1, exact->energy));
     const auto percent = [&](double energy) {
       return 100.0 * (energy - static_cast<double>(exact->energy)) / optimum;
@@ -134,10 +141,12 @@ std::string table(const AnnealStudy& study, const std::map<SummaryKey, Summary>&
   };
   for (const auto& [key, s] : summaries) {
     const auto& [radius, place, proposals] = key;
-    if (radius != exact.radius || schedules[place] != "exponential") continue;
+    const double decades = std::log10(static_cast<double>(proposals));
+    if (radius != exact.radius || schedules[place] != "exponential" || decades != std::round(decades))
+      continue;
     fmt::format_to(std::back_inserter(text),
-                   "| ours, annealed, {:.0e} proposals | {:.0f} | {:.3f} % | {:.1f} % | {:.3g} s |\n",
-                   static_cast<double>(proposals), s.median, share(s.median),
+                   "| ours, annealed, 1e{} proposals | {:.0f} | {:.3f} % | {:.1f} % | {:.3g} s |\n",
+                   static_cast<int>(decades), s.median, share(s.median),
                    100.0 * (s.median / static_cast<double>(std::max<std::int64_t>(1, exact.energy)) - 1.0),
                    s.seconds);
   }
@@ -153,9 +162,8 @@ struct Subject {
   std::vector<std::int64_t> budgets;
 };
 
-Subject subject_of(const Settings& settings, const Execution& execution) {
+Subject subject_of(const Settings& settings, const Image& image) {
   Subject subject;
-  const Image image = read_image(settings.image, execution).image;
   subject.problem.channels = {{levels_of_channel(image, settings.channel).value}};
   const Extent size = subject.problem.channels[0].levels.size();
   subject.problem.retarget.step = settings.step ? *settings.step : auto_step(size).step;
@@ -170,6 +178,23 @@ Subject subject_of(const Settings& settings, const Execution& execution) {
   return subject;
 }
 
+/// One folder holds figures of one subject, so that parts measured one by one belong together.
+void claim_folder(const Settings& settings, const Subject& subject, const Image& image) {
+  make_folder(settings.out);
+  const auto file = settings.out / "study.txt";
+  const Offset step = subject.problem.retarget.step;
+  const std::string mine = fmt::format("image {}\nchannel {}\nstep {},{}\nannealing version {}\n",
+                                       pixel_hash(image), settings.channel, step.x, step.y, kAnnealVersion);
+  if (std::filesystem::exists(file) && read_text_file(file) != mine) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "holds a study of another image, channel, step or version of bn",
+                 .where = settings.out.string(),
+                 .limit = "",
+                 .remedy = "name another folder, or remove this one"});
+  }
+  write_text_file(file, mine);
+}
+
 void measure_runs(const Settings& settings, const Subject& subject, Session& session) {
   AnnealStudyOptions options;
   options.retarget = subject.problem.retarget;
@@ -177,11 +202,21 @@ void measure_runs(const Settings& settings, const Subject& subject, Session& ses
   options.budgets = subject.budgets;
   options.radii = settings.radii;
   options.seeds = settings.seeds;
+  const auto file = settings.out / "runs.csv";
+  if (std::filesystem::exists(file)) {
+    options.known = runs_from_csv(read_text_file(file));
+    std::erase_if(options.known, [&](const AnnealStudyRun& run) {
+      return std::find(options.schedules.begin(), options.schedules.end(), run.schedule) ==
+             options.schedules.end();
+    });
+    session.progress.note(fmt::format("{} has {} runs, which are kept; remove it to measure them again",
+                                      file.string(), options.known.size()));
+  }
+  options.save = [&](const std::vector<AnnealStudyRun>& runs) { write_text_file(file, runs_csv(runs)); };
   const AnnealStudy study =
       study_anneal(subject.problem.channels[0].levels, options, session.execution_showing("anneal"));
   session.progress.finish();
   const auto summaries = summarise(study, options.schedules);
-  write_text_file(settings.out / "runs.csv", runs_csv(study.runs));
   write_text_file(settings.out / "medians.csv", medians_csv(study, summaries, options.schedules));
   const std::string markdown = table(study, summaries, options.schedules);
   write_text_file(settings.out / "table.md", markdown);
@@ -278,14 +313,15 @@ constexpr std::string_view kFigures =
 /// The figures of all data in the folder, those of earlier parts too.
 std::string figures(const Settings& settings, const std::vector<std::string>& schedules) {
   const auto stands = [&](const char* file) { return std::filesystem::exists(settings.out / file) ? 1 : 0; };
-  return fmt::format("schedules = \"{}\"\nradius = {}\nruns = {}\ntraces = {}\nthroughput = {}\n\n{}",
-                     fmt::join(schedules, " "), settings.radii.front(), stands("medians.csv"),
-                     stands("surface.csv"), stands("throughput.csv"), kFigures);
+  return fmt::format("schedules = \"{}\"\nruns = {}\ntraces = {}\nthroughput = {}\n\n{}",
+                     fmt::join(schedules, " "), stands("medians.csv"), stands("surface.csv"),
+                     stands("throughput.csv"), kFigures);
 }
 
 void run(const Settings& settings, Session& session) {
-  const Subject subject = subject_of(settings, session.execution);
-  make_folder(settings.out);
+  const Image image = read_image(settings.image, session.execution).image;
+  const Subject subject = subject_of(settings, image);
+  claim_folder(settings, subject, image);
   if (settings.wants(Part::runs)) measure_runs(settings, subject, session);
   if (settings.wants(Part::traces)) measure_traces(settings, subject, session);
   if (settings.wants(Part::throughput)) measure_throughput(settings, session);
@@ -316,7 +352,7 @@ Verb study_anneal_verb() {
       "motions: all 81, by the clock on the wall, motions.csv.\n\n"
       "gnuplot draws the figures of all data in the folder, as SVG, by the script figures.gp that is left "
       "there; without gnuplot a note says what to install. Parts measured one by one into the same folder "
-      "come together.";
+      "come together, and runs that stand in its runs.csv are not made again: a stopped study goes on.";
   verb.arguments.positional("IMAGE", settings->image, file_path(),
                             "The mask: any image that OpenImageIO reads.");
   verb.arguments.option("--channel", settings->channel, integer_in(0, 63), "The channel to use, 0 for red.");

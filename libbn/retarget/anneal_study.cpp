@@ -5,15 +5,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <tuple>
 
 #include "bn/anneal.h"
+#include "core/progress.h"
 #include "retarget/anneal_engine.h"
+#include "retarget/refuse.h"
 
 namespace bn {
 namespace {
@@ -22,6 +26,12 @@ double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
 }
 
 }  // namespace
@@ -35,64 +45,115 @@ std::string runs_csv(const std::vector<AnnealStudyRun>& runs) {
   return text;
 }
 
+std::vector<AnnealStudyRun> runs_from_csv(std::string_view csv) {
+  const std::string names = runs_csv({});
+  std::vector<AnnealStudyRun> runs;
+  int line_number = 1;
+  const auto refuse_line = [&] {
+    refuse("runs.csv", fmt::format("line {} is no run", line_number), "as runs_csv() writes them");
+  };
+  if (!csv.starts_with(names)) refuse_line();
+  csv.remove_prefix(names.size());
+  while (!csv.empty()) {
+    ++line_number;
+    const auto end = csv.find('\n');
+    if (end == std::string_view::npos) refuse_line();
+    std::string_view line = csv.substr(0, end);
+    csv.remove_prefix(end + 1);
+    AnnealStudyRun run;
+    const auto comma = std::min(line.find(','), line.size());
+    run.schedule = line.substr(0, comma);
+    line.remove_prefix(comma);
+    const auto number = [&](auto& value) {
+      if (!line.starts_with(',')) refuse_line();
+      const auto [rest, error] = std::from_chars(line.data() + 1, line.data() + line.size(), value);
+      if (error != std::errc{}) refuse_line();
+      line.remove_prefix(static_cast<std::size_t>(rest - line.data()));
+    };
+    number(run.radius);
+    number(run.proposals);
+    number(run.seed);
+    number(run.cpu_seconds);
+    number(run.energy);
+    if (!line.empty()) refuse_line();
+    runs.push_back(std::move(run));
+  }
+  return runs;
+}
+
 AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOptions& options,
                          const Execution& execution) {
   AnnealStudy study;
+  study.runs = options.known;
   AnnealProblem problem;
   problem.channels = {{levels}};
   problem.retarget = options.retarget;
-  const auto report = [&](std::size_t done) {
-    const std::size_t all = options.radii.size() * options.schedules.size() * options.budgets.size() *
-                            static_cast<std::size_t>(options.seeds);
-    if (execution.progress)
-      execution.progress(static_cast<double>(done) / static_cast<double>(std::max<std::size_t>(1, all)));
-  };
   const Execution alone{
       .threads = 1, .stop = execution.stop, .memory_limit_bytes = execution.memory_limit_bytes};
-  std::size_t done = 0;
-  for (const int radius : options.radii) {
-    problem.retarget.radius = radius;
-    const double exact_start = cpu_seconds();
-    const RetargetTile exact = solve_retarget(levels, problem.retarget, alone);
-    study.exact.push_back({.radius = radius,
-                           .cpu_seconds = cpu_seconds() - exact_start,
-                           .start_energy = exact.start_energy,
-                           .energy = exact.energy});
-    for (const std::string& schedule : options.schedules) {
-      for (const std::int64_t budget : options.budgets) {
-        for (int seed = 1; seed <= options.seeds; ++seed) {
-          AnnealOptions run;
-          run.schedule = schedule;
-          run.proposals = budget;
-          run.seed = static_cast<std::uint64_t>(seed);
-          run.start = options.start;
-          run.end_temperature = options.end_temperature;
-          run.lower_bound = exact.lower_bound;
-          const double start = cpu_seconds();
-          const AnnealResult result = anneal_retarget(problem, run, alone);
-          study.runs.push_back({.schedule = schedule,
-                                .radius = radius,
-                                .proposals = budget,
-                                .seed = run.seed,
-                                .cpu_seconds = cpu_seconds() - start,
-                                .energy = result.tile.energy});
-          report(++done);
+  ProgressMeter progress(execution, options.radii.size() * options.schedules.size() * options.budgets.size() *
+                                        static_cast<std::size_t>(options.seeds));
+  const auto save = [&] {
+    if (options.save) options.save(study.runs);
+  };
+  const auto is_known = [&](const AnnealStudyRun& run) {
+    return std::any_of(options.known.begin(), options.known.end(), [&](const AnnealStudyRun& known) {
+      return std::tie(known.schedule, known.radius, known.proposals, known.seed) ==
+             std::tie(run.schedule, run.radius, run.proposals, run.seed);
+    });
+  };
+  const auto make = [&](AnnealStudyRun run, std::int64_t lower_bound) {
+    AnnealOptions one;
+    one.schedule = run.schedule;
+    one.proposals = run.proposals;
+    one.seed = run.seed;
+    one.start = options.start;
+    one.end_temperature = options.end_temperature;
+    one.lower_bound = lower_bound;
+    const double start = cpu_seconds();
+    run.energy = anneal_retarget(problem, one, alone).tile.energy;
+    run.cpu_seconds = cpu_seconds() - start;
+    study.runs.push_back(std::move(run));
+  };
+  try {
+    for (const int radius : options.radii) {
+      problem.retarget.radius = radius;
+      constexpr int kSolves = 5;
+      std::vector<double> seconds;
+      RetargetTile exact;
+      for (int i = 0; i < kSolves; ++i) {
+        const double start = cpu_seconds();
+        exact = solve_retarget(levels, problem.retarget, alone);
+        seconds.push_back(cpu_seconds() - start);
+      }
+      study.exact.push_back({.radius = radius,
+                             .cpu_seconds = median(seconds),
+                             .start_energy = exact.start_energy,
+                             .energy = exact.energy});
+      for (const std::string& schedule : options.schedules) {
+        for (const std::int64_t budget : options.budgets) {
+          for (int seed = 1; seed <= options.seeds; ++seed) {
+            AnnealStudyRun run{.schedule = schedule,
+                               .radius = radius,
+                               .proposals = budget,
+                               .seed = static_cast<std::uint64_t>(seed)};
+            if (!is_known(run)) make(std::move(run), exact.lower_bound);
+            progress.advance(1);
+          }
+          save();
         }
       }
     }
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) save();
+    throw;
   }
+  progress.finish();
   return study;
 }
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 
 /// Structureless grey levels: annealing does not care for more.
 AnnealProblem grey_problem(int side) {

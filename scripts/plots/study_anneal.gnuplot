@@ -1,8 +1,11 @@
 # Figures of bn study anneal. Before this stand
-#   schedules: their names, apart by spaces; radius: the one to show
+#   schedules: their names, apart by spaces
 #   runs, traces, throughput: 1 where the CSV files of that part stand
 if (runs) {
 # Columns of medians.csv: schedule,radius,proposals,seconds,excess_low,excess_median,excess_high
+# The least of the radii.
+stats "medians.csv" skip 1 using 2 nooutput
+radius = int(STATS_min)
 set output "error_against_time.svg"
 set title "Energy above the proven optimum, radius ".radius.": median and range over seeds"
 set xlabel "time on one core, s"

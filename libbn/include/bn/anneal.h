@@ -362,17 +362,6 @@ std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const A
 
 // --- studies ---------------------------------------------------------------------------------------
 
-/// What study_anneal() crosses with each other.
-struct AnnealStudyOptions {
-  RetargetOptions retarget = {};  ///< its radius is not used
-  std::vector<std::string> schedules;
-  std::vector<std::int64_t> budgets;  ///< proposals
-  std::vector<int> radii;
-  int seeds = 1;  ///< 1..seeds
-  StartTemperature start = {};
-  double end_temperature = 0.0;
-};
-
 struct AnnealStudyRun {
   std::string schedule;
   int radius = 0;
@@ -383,16 +372,32 @@ struct AnnealStudyRun {
 };
 /// A line a run under a line of names: schedule,radius,proposals,seed,seconds,energy.
 std::string runs_csv(const std::vector<AnnealStudyRun>& runs);
+/// The inverse. Errors: invalid_input, naming the line.
+std::vector<AnnealStudyRun> runs_from_csv(std::string_view csv);
+
+/// What study_anneal() crosses with each other.
+struct AnnealStudyOptions {
+  RetargetOptions retarget = {};  ///< its radius is not used
+  std::vector<std::string> schedules;
+  std::vector<std::int64_t> budgets;  ///< proposals
+  std::vector<int> radii;
+  int seeds = 1;  ///< 1..seeds
+  StartTemperature start = {};
+  double end_temperature = 0.0;
+  std::vector<AnnealStudyRun> known = {};  ///< made before, of this problem: these are not made again
+  /// Called with known and new runs after each group of seeds, and when a stop was requested.
+  std::function<void(const std::vector<AnnealStudyRun>&)> save = {};
+};
 
 struct AnnealStudyExact {
   int radius = 0;
-  double cpu_seconds = 0.0;
+  double cpu_seconds = 0.0;  ///< one thread, median of five
   std::int64_t start_energy = 0;
   std::int64_t energy = 0;  ///< proven optimal
 };
 struct AnnealStudy {
   std::vector<AnnealStudyExact> exact;  ///< one a radius
-  std::vector<AnnealStudyRun> runs;
+  std::vector<AnnealStudyRun> runs;     ///< known ones first
 };
 
 /// Anneals `levels` under every combination and solves each radius exactly. Energies are reproducible, times
