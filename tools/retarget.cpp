@@ -24,6 +24,7 @@ struct Settings {
   bool anneals = false;
   AnnealMethod anneal;
   std::vector<std::string> anneal_flags;  ///< those that were given
+  std::optional<std::int64_t> stop_after;
   Budget budget;
   double start_temperature = 0.0;
   double initial_acceptance = 0.0;
@@ -134,6 +135,11 @@ AnnealMethod annealing(const Settings& settings) {
   method.options.proposals = static_cast<std::int64_t>(std::min(settings.budget.proposals, kMostProposals));
   method.seconds = settings.budget.seconds;
   if (method.seconds > 0.0) method.options.proposals = 1;  // until the clock has spoken
+  method.options.stop_after = settings.stop_after.value_or(0);
+  if (method.seconds > 0.0 && settings.stop_after) {
+    refuse("--stop-after", "given beside a budget in seconds", "a budget in proposals",
+           "give --budget as proposals");
+  }
   using Rule = StartTemperature::Rule;
   if (settings.start_temperature > 0.0 && settings.initial_acceptance > 0.0) {
     refuse("--initial-acceptance", "given beside --start-temperature", "one of the two", "leave one out");
@@ -203,6 +209,7 @@ void run(Settings& settings, Session& session) {
     result["schedule"] = method.options.schedule;
     result["proposals"] = job.proposals.value();
     result["seed"] = method.options.seed;
+    if (method.options.stop_after > 0) result["stop_after"] = method.options.stop_after;
     if (method.options.chains.count > 1) result["chains"] = method.options.chains.count;
     if (method.seconds > 0.0) {
       session.progress.note(
@@ -269,6 +276,8 @@ void declare_annealing(Arguments& arguments, Settings& settings) {
          "Of several chains: the best of them, or parallel tempering between start and end temperature.");
   option("--swap-distance", options.swap_distance_px, integer_in(0, 64),
          "The farthest apart per axis two swapped seeds may be, at most twice the radius; 0 for 5/3 of it.");
+  option("--stop-after", settings.stop_after, optional_number<std::int64_t>("1..the budget"),
+         "End after so many proposals, cooled as for the whole budget: a run that was stopped, made again.");
   option("--channels", settings.anneal.channels, integer_list(0, 63, 16),
          "Minimise the weighted sum over these channels, in place of one.");
   option("--weights", settings.anneal.weights, integer_list(1, 1000, 16),

@@ -256,10 +256,26 @@ class RecipeParser {
   std::optional<AnnealMethod> parse_anneal(TableReader& table, const RetargetEntry& set) {
     const bool anneals = table.choice("method", 0, {"exact", "anneal"}) == 1;
     if (!anneals) {
-      for (const char* key :
-           {"schedule", "proposals", "seed", "start_temperature", "initial_acceptance", "end_temperature",
-            "factor", "slope", "hajek_c", "stages", "accepted_per_stage", "tried_per_stage", "frozen_stages",
-            "chains", "coupling", "swap_distance", "channels", "weights", "residual_sigma"}) {
+      for (const char* key : {"schedule",
+                              "proposals",
+                              "seed",
+                              "start_temperature",
+                              "initial_acceptance",
+                              "end_temperature",
+                              "factor",
+                              "slope",
+                              "hajek_c",
+                              "stages",
+                              "accepted_per_stage",
+                              "tried_per_stage",
+                              "frozen_stages",
+                              "chains",
+                              "coupling",
+                              "swap_distance",
+                              "stop_after",
+                              "channels",
+                              "weights",
+                              "residual_sigma"}) {
         if (table.has(key)) table.mistake(key, "needs annealing", "only with method = \"anneal\"");
       }
       return std::nullopt;
@@ -273,6 +289,7 @@ class RecipeParser {
     parse_schedule_parameters(table, options.parameters);
     constexpr std::int64_t kMany = std::numeric_limits<std::int64_t>::max();
     options.proposals = table.integer("proposals", options.proposals, 1, std::int64_t{1} << 62);
+    options.stop_after = table.integer("stop_after", 0, 0, std::int64_t{1} << 62);
     options.seed = static_cast<std::uint64_t>(table.integer("seed", 1, 0, kMany));
     constexpr double kHottest = 1e15;
     const double start = table.number("start_temperature", 0.0, 0.0, kHottest);

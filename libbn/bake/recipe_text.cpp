@@ -70,6 +70,7 @@ std::string anneal_text(const AnnealMethod& anneal) {
                  number(acceptance), number(options.end_temperature), options.chains.count,
                  options.chains.coupling == ChainOptions::Coupling::tempering ? "tempering" : "independent",
                  options.swap_distance_px);
+  if (options.stop_after > 0) fmt::format_to(out, "stop_after = {}\n", options.stop_after);
   return text;
 }
 

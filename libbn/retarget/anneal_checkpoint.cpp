@@ -167,6 +167,7 @@ std::uint64_t fingerprint_of(const AnnealProblem& problem, const AnnealOptions& 
     put(text, value);
   put(text, options.proposals);
   put(text, options.seed);
+  if (options.stop_after > 0) put(text, options.stop_after);
   text += options.schedule;
   const ScheduleParameters& p = options.parameters;
   put(text, p.factor), put(text, p.slope), put(text, p.hajek_c), put(text, p.stages);

@@ -88,6 +88,10 @@ void check_anneal_options(const AnnealOptions& options) {
   if (options.proposals < 1 || options.proposals > (std::int64_t{1} << 62)) {
     refuse("proposals", fmt::format("a budget of {}", options.proposals), "1..2^62 proposals");
   }
+  if (options.stop_after < 0 || options.stop_after > options.proposals) {
+    refuse("stop_after", fmt::format("{}", options.stop_after),
+           fmt::format("0..{}, the proposals; 0 for all of them", options.proposals));
+  }
   if (options.start.rule == StartTemperature::Rule::acceptance &&
       !(options.start.value >= 0.001 && options.start.value <= 0.999)) {
     refuse("initial_acceptance", fmt::format("{}", options.start.value), "0.001..0.999");
@@ -165,6 +169,7 @@ std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const A
     refuse("budget", fmt::format("{} s", seconds), "above 0, at most 1e6 s");
   AnnealOptions trial = options;
   trial.checkpoint = {};
+  trial.stop_after = 0;
   const Execution inside{.threads = execution.threads,
                          .stop = execution.stop,
                          .memory_limit_bytes = execution.memory_limit_bytes};

@@ -49,8 +49,8 @@ struct Chain {
   bool quench = false;
   double temperature = 0.0;
 
-  bool done(std::int64_t budget) const { return proposals >= budget || cooling.frozen(); }
-  bool arrived(std::int64_t budget) const { return sweep == 0 && (proposals >= target || done(budget)); }
+  bool done(std::int64_t end) const { return proposals >= end || cooling.frozen(); }
+  bool arrived(std::int64_t end) const { return sweep == 0 && (proposals >= target || done(end)); }
 };
 
 class Run {
@@ -68,6 +68,7 @@ class Run {
         chains * static_cast<std::uint64_t>(instance_.size.area()) * (24 + 16 * instance_.weight.size()),
         "annealing");
     temperatures_ = temperatures_of(instance_, options);
+    end_ = options.stop_after > 0 ? options.stop_after : options.proposals;
     const std::int64_t quench = options.proposals / kQuenchShare;
     cooled_ = options.proposals - quench;
     const std::int64_t sweep = std::max<std::int64_t>(1, instance_.size.area() / 2);
@@ -93,7 +94,7 @@ class Run {
   AnnealResult run() {
     auto saved = Clock::now();
     double save_cost_s = 0.0;
-    ProgressMeter progress(execution_, static_cast<std::uint64_t>(options_.proposals));
+    ProgressMeter progress(execution_, static_cast<std::uint64_t>(end_));
     std::uint64_t reported = 0;
     while (!done()) {
       if (execution_.stop.stop_requested()) {
@@ -109,7 +110,7 @@ class Run {
         saved = Clock::now();
       }
       beat();
-      const auto made = static_cast<std::uint64_t>(std::min(chains_.front().proposals, options_.proposals));
+      const auto made = static_cast<std::uint64_t>(std::min(chains_.front().proposals, end_));
       progress.advance(made - reported);
       reported = made;
     }
@@ -121,7 +122,7 @@ class Run {
   bool done() const {
     return instance_.displacements.empty() ||
            std::all_of(chains_.begin(), chains_.end(),
-                       [&](const Chain& c) { return c.sweep == 0 && c.done(options_.proposals); });
+                       [&](const Chain& c) { return c.sweep == 0 && c.done(end_); });
   }
 
   /// To the end of the beat.
@@ -132,7 +133,7 @@ class Run {
     parallel_for({.threads = execution_.threads}, static_cast<std::int64_t>(chains_.size()),
                  [&](std::int64_t c) {
                    Chain& chain = chains_[static_cast<std::size_t>(c)];
-                   while (!chain.arrived(options_.proposals)) advance(chain, sweeps_, inside);
+                   while (!chain.arrived(end_)) advance(chain, sweeps_, inside);
                  });
     seconds_ += seconds_since(start);
     end_beat();
@@ -144,11 +145,11 @@ class Run {
     if (!in_beat_) begin_beat();
     bool arrived = true;
     for (Chain& chain : chains_) {
-      if (chain.arrived(options_.proposals)) continue;
+      if (chain.arrived(end_)) continue;
       chain.watched = {.sweeps = 1};
       chain.watch = true;
       advance(chain, 1, execution_);
-      arrived = arrived && chain.arrived(options_.proposals);
+      arrived = arrived && chain.arrived(end_);
     }
     seconds_ += seconds_since(start);
     if (arrived) end_beat();
@@ -171,6 +172,12 @@ class Run {
   }
 
   Placement move() const { return instance_.moves_of(chains_.front().engine->displacements()); }
+
+  /// Of chain c; chains of tempering hold the temperature of their place on the ladder.
+  CoolingSchedule schedule(int c) const {
+    if (tempering()) return ConstantCooling{ladder(c)};
+    return schedule_of(options_, temperatures_, cooled_);
+  }
 
   std::string checkpoint() const {
     if (in_beat_) refuse("checkpoint", "asked for between sweeps", "after a beat", "finish the beat first");
@@ -226,11 +233,6 @@ class Run {
     return range;
   }
 
-  /// Of chain c; chains of tempering hold the temperature of their place on the ladder.
-  CoolingSchedule schedule(int c) const {
-    if (tempering()) return ConstantCooling{ladder(c)};
-    return schedule_of(options_, temperatures_, cooled_);
-  }
   /// Geometric, chain 0 the coldest.
   double ladder(int place) const {
     const double share = static_cast<double>(place) / (options_.chains.count - 1);
@@ -357,6 +359,7 @@ class Run {
   AnnealInstance instance_;
   std::uint64_t fingerprint_;
   TemperatureRange temperatures_;
+  std::int64_t end_ = 0;     ///< proposals of a chain at which it is done
   std::int64_t cooled_ = 0;  ///< proposals before the last ones at temperature 0
   int sweeps_ = 1;           ///< of a round
   std::int64_t beat_ = 1;    ///< proposals of a beat
@@ -434,5 +437,6 @@ std::string Annealing::checkpoint() const { return held_->run.checkpoint(); }
 Grid<Offset> Annealing::move() const { return held_->run.move().xy; }
 Grid<std::int8_t> Annealing::move_z() const { return held_->run.move().z; }
 AnnealResult Annealing::result() const { return held_->run.result(); }
+CoolingSchedule Annealing::schedule() const { return held_->run.schedule(0); }
 
 }  // namespace bn

@@ -57,6 +57,7 @@ end_temperature = 0.25
 chains = 8
 coupling = "independent"
 swap_distance = 7
+stop_after = 5000000000
 outputs = ["a.png"]
 )";
 
@@ -78,6 +79,7 @@ TEST(Recipe, AnnealingIsReadAsWritten) {
   EXPECT_EQ(anneal.options.end_temperature, 0.25);
   EXPECT_EQ(anneal.options.chains.count, 8);
   EXPECT_EQ(anneal.options.swap_distance_px, 7);
+  EXPECT_EQ(anneal.options.stop_after, 5'000'000'000);
   const std::string text = recipe_text(recipe);
   EXPECT_EQ(recipe_text(parse_recipe(text, "again", "")), text);
 }
@@ -113,6 +115,7 @@ TEST(Recipe, WhatAnnealingRefusesIsNamed) {
   says("chains = 8", "chains = 0", {"chains is 0", "1..256"});
   says("chains = 8\ncoupling = \"independent\"", "coupling = \"tempering\"", {"chains", "2..256"});
   says("swap_distance = 7", "swap_distance = 13", {"swap_distance is 13", "0..12"});
+  says("stop_after = 5000000000", "stop_after = 20000000000", {"stop_after", "0..10000000000"});
   says("weights = [3, 1]", "weights = [3]", {"weights has 1 elements", "one for each channel"});
   says("weights = [3, 1]", "weights = [3, 0]", {"weights is no such list", "1..1000"});
   says("channels = [2, 0]", "channels = []", {"channels is no such list"});

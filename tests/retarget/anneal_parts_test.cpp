@@ -2,6 +2,8 @@
 // between two parts is true; one sweep is one sweep.
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "bn/anneal.h"
 #include "reference.h"
 #include "retarget/anneal_engine.h"
@@ -65,6 +67,43 @@ TEST(AnnealParts, AnyMixtureOfBeatsAndSweepsEndsTheSame) {
       EXPECT_EQ(annealing.result().tile.move, whole.tile.move) << "it went on after its end";
     }
   }
+}
+
+TEST(AnnealParts, AStoppedRunIsMadeAgain) {
+  for (auto& [problem, options] : settings()) {
+    if (options.chains.count > 1) continue;
+    Annealing stopped(problem, options);
+    std::int64_t before = -1;
+    for (int i = 0; i < 40; ++i) {
+      i % 3 == 0 ? stopped.beat() : stopped.sweep();
+      const AnnealResult result = stopped.result();
+      if (result.proposals == std::exchange(before, result.proposals) || result.proposals == 0) continue;
+      AnnealOptions again = options;
+      again.stop_after = result.proposals;
+      const AnnealResult made = anneal_retarget(problem, again);
+      EXPECT_EQ(made.tile.move, result.tile.move);
+      EXPECT_EQ(made.tile.energy, result.tile.energy);
+      EXPECT_EQ(made.proposals, result.proposals);
+      EXPECT_EQ(made.accepted, result.accepted);
+    }
+    for (const std::int64_t outside : {std::int64_t{-1}, options.proposals + 1}) {
+      options.stop_after = outside;
+      EXPECT_THROW(anneal_retarget(problem, options), Error);
+    }
+  }
+}
+
+TEST(AnnealParts, TellsTheScheduleThatItsOptionsCameTo) {
+  auto [problem, options] = settings().front();
+  options.start = {StartTemperature::Rule::given, 5.0};
+  options.end_temperature = 0.5;
+  const auto made = std::get<ExponentialCooling>(Annealing(problem, options).schedule());
+  EXPECT_EQ(made.start, 5.0);
+  // The last 64th of the budget is spent at temperature 0.
+  EXPECT_NEAR(made.at(static_cast<double>(options.proposals - options.proposals / 64)), 0.5, 1e-9);
+  options.end_temperature = 0.0;
+  options.parameters.factor = 0.5;  // whose end is too cold for a double
+  EXPECT_EQ(std::get<ExponentialCooling>(Annealing(problem, options).schedule()).factor, 0.5);
 }
 
 TEST(AnnealParts, ASweepProposesAtMostHalfThePixels) {

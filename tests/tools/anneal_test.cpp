@@ -89,7 +89,8 @@ TEST_F(AnnealVerb, AnnealsWhatTheExactSolverCannot) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(run({"verify", "o.png"}).exit_code, 0);
   result = run(words({"--schedule", "kirkpatrick", "--factor", "0.9", "--accepted-per-stage", "500",
-                      "--tried-per-stage", "10000", "--frozen-stages", "2", "--stages", "30"}));
+                      "--tried-per-stage", "10000", "--frozen-stages", "2", "--stages", "30", "--stop-after",
+                      "100000"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
   // What the file carries makes it again.
   const auto recipe = nlohmann::json::parse(run({"info", "o.png", "--json"}).out)
@@ -97,6 +98,7 @@ TEST_F(AnnealVerb, AnnealsWhatTheExactSolverCannot) {
                           .at("recipe")
                           .get<std::string>();
   EXPECT_NE(recipe.find("tried_per_stage = 10000"), std::string::npos) << recipe;
+  EXPECT_NE(recipe.find("stop_after = 100000"), std::string::npos) << recipe;
   write_bytes(scratch_ / "again.toml", recipe);
   ASSERT_EQ(run({"bake", "again.toml", "--out", "again"}).exit_code, 0);
   const auto hash_of = [&](const std::string& file) {

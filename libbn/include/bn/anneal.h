@@ -253,6 +253,9 @@ struct AnnealOptions {
   /// Budget of each chain, 1..2^62. A proposal is one pair of seeds, within reach or not. The last 64th is
   /// spent at temperature 0, whatever the schedule.
   std::int64_t proposals = 1'000'000'000;
+  /// Above 0, at most proposals: the run ends after the round in which it has made so many, cooled as for the
+  /// whole budget: a run that was stopped, made again.
+  std::int64_t stop_after = 0;
   std::uint64_t seed = 1;
   /// Largest distance per axis of two seeds that are swapped, 1..2 radius; 0 for 5/3 radius.
   int swap_distance_px = 0;
@@ -328,7 +331,11 @@ class Annealing {
   std::string checkpoint() const;
   Grid<Offset> move() const;         ///< the placement of the traced chain, now; a pass over the pixels
   Grid<std::int8_t> move_z() const;  ///< its third axis, of a volume; else empty
-  AnnealResult result() const;       ///< with the best placement after a whole round, so far; likewise
+  /// With the best placement after a whole round, so far; likewise. A run of one chain whose stop_after is
+  /// result().proposals ends with the same bytes; none has been made before the first round ends.
+  AnnealResult result() const;
+  /// What the options came to: of the traced chain, over all proposals but the last 64th.
+  CoolingSchedule schedule() const;
 
  private:
   struct Held;
