@@ -24,7 +24,7 @@ struct Figures {
 };
 Figures figures_of(const RunEntry& entry) {
   const Standing standing = entry.run->standing();
-  const auto result = entry.run->result();
+  const auto result = entry.run->has_ended() ? entry.run->result() : nullptr;
   return {result ? result->tile.energy : standing.state.energy, standing.state.seconds,
           standing.state.proposals};
 }

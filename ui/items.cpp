@@ -29,9 +29,9 @@ void record(std::string_view label, std::string_view text, ImVec2 min, ImVec2 ma
   item.min = {std::max(min.x, clip_min.x), std::max(min.y, clip_min.y)};
   item.max = {std::min(max.x, clip_max.x), std::min(max.y, clip_max.y)};
   item.visible = item.min.x < item.max.x && item.min.y < item.max.y;
-  // Half of it in sight is enough to click it.
+  item.whole = item.visible && item.max.y - item.min.y >= 0.9f * (max.y - min.y);
   if (!wanted.empty() && wanted == item.name) {
-    if (item.max.y - item.min.y < 0.9f * (max.y - min.y)) ImGui::SetScrollHereY();
+    if (!item.whole) ImGui::SetScrollHereY();
     wanted.clear();
   }
   recording.push_back(std::move(item));

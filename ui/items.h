@@ -17,6 +17,7 @@ struct Item {
   std::string text;  ///< the value it shows; empty for a plain button
   ImVec2 min, max;   ///< the part that can be seen; empty where it is scrolled or clipped away
   bool visible = false;
+  bool whole = false;  ///< nothing of its height is scrolled away
   bool enabled = true;
 };
 

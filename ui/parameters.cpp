@@ -6,22 +6,35 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "bn/texture.h"
 
 namespace bn::ui {
-namespace {
 
 template <class T>
-void load_number(const std::string& text, T& value, T low, T high) {
+bool read_number(std::string_view text, T& value) {
+  const char* const last = text.data() + text.size();
   T number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error == std::errc() && end == text.data() + text.size() && number >= low && number <= high)
-    value = number;
+  auto [end, error] = std::from_chars(text.data(), last, number);
+  bool whole = error == std::errc() && end == last && !text.empty();
+  if constexpr (std::is_integral_v<T>) {
+    double real = 0.0;
+    if (!whole && read_number(text, real)) {
+      // Beyond 2^53 a double is no longer one integer; the greatest T is.
+      const double most = static_cast<double>(std::numeric_limits<T>::max());
+      whole = real == std::floor(real) && std::abs(real) < most;
+      if (whole) number = static_cast<T>(real);
+    }
+  }
+  if (whole) value = number;
+  return whole;
 }
-
-}  // namespace
+template bool read_number(std::string_view, int&);
+template bool read_number(std::string_view, std::int64_t&);
+template bool read_number(std::string_view, double&);
 
 const std::string* Parameters::text(const char* name) const {
   const auto found = settings_.find(name);
@@ -36,28 +49,43 @@ void Parameters::operator()(const char* name, bool& value) {
   }
 }
 
+template <class T>
+void Parameters::number(const char* name, T& value, T low, T high) {
+  if (!loading_) {
+    settings_[name] = fmt::format("{}", value);
+  } else if (const auto* word = text(name)) {
+    T known{};
+    if (read_number(*word, known) && known >= low && known <= high) value = known;
+  }
+}
+
+template <class T>
+void Parameters::optional_number(const char* name, std::optional<T>& value) {
+  if (!loading_) {
+    settings_[name] = value ? fmt::format("{}", *value) : "";
+  } else if (const auto* word = text(name)) {
+    T known{};
+    if (word->empty()) {
+      value.reset();
+    } else if (read_number(*word, known)) {
+      value = known;
+    }
+  }
+}
+
 void Parameters::operator()(const char* name, int& value, int low, int high) {
-  if (!loading_) {
-    settings_[name] = fmt::format("{}", value);
-  } else if (const auto* number = text(name)) {
-    load_number(*number, value, low, high);
-  }
+  number(name, value, low, high);
 }
-
 void Parameters::operator()(const char* name, std::int64_t& value, std::int64_t low, std::int64_t high) {
-  if (!loading_) {
-    settings_[name] = fmt::format("{}", value);
-  } else if (const auto* number = text(name)) {
-    load_number(*number, value, low, high);
-  }
+  number(name, value, low, high);
 }
-
 void Parameters::operator()(const char* name, double& value, double low, double high) {
-  if (!loading_) {
-    settings_[name] = fmt::format("{}", value);
-  } else if (const auto* number = text(name)) {
-    load_number(*number, value, low, high);
-  }
+  number(name, value, low, high);
+}
+void Parameters::operator()(const char* name, std::optional<double>& value) { optional_number(name, value); }
+void Parameters::operator()(const char* name, std::optional<int>& value) { optional_number(name, value); }
+void Parameters::operator()(const char* name, std::optional<std::int64_t>& value) {
+  optional_number(name, value);
 }
 
 void Parameters::operator()(const char* name, std::string& value) {

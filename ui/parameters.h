@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <span>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,6 +28,10 @@ class Parameters {
   void operator()(const char* name, int& value, int low, int high);
   void operator()(const char* name, std::int64_t& value, std::int64_t low, std::int64_t high);
   void operator()(const char* name, double& value, double low, double high);
+  /// None is the empty text.
+  void operator()(const char* name, std::optional<double>& value);
+  void operator()(const char* name, std::optional<int>& value);
+  void operator()(const char* name, std::optional<std::int64_t>& value);
   void operator()(const char* name, std::string& value);
   void operator()(const char* name, std::filesystem::path& value);
   bool loading() const { return loading_; }
@@ -35,6 +39,10 @@ class Parameters {
  private:
   Parameters(Settings& settings, bool loading) : settings_(settings), loading_(loading) {}
   const std::string* text(const char* name) const;
+  template <class T>
+  void number(const char* name, T& value, T low, T high);
+  template <class T>
+  void optional_number(const char* name, std::optional<T>& value);
 
   Settings& settings_;
   bool loading_;
@@ -56,6 +64,10 @@ class UndoHistory {
   std::vector<Settings> states_;
   std::size_t present_ = 0;
 };
+
+/// Whether all of `text` is a number that T holds, which `value` then is: "12", "1e9", "0.5" of a double.
+template <class T>
+bool read_number(std::string_view text, T& value);
 
 /// $XDG_STATE_HOME/bn-inspector/session.json, else below ~/.local/state; empty where neither is known.
 std::filesystem::path session_file();

@@ -58,7 +58,7 @@ std::shared_ptr<const Placement> Run::placement() {
   return placement_;
 }
 
-std::optional<AnnealResult> Run::result() const {
+std::shared_ptr<const AnnealResult> Run::result() const {
   const std::scoped_lock lock(mutex_);
   return result_;
 }
@@ -101,9 +101,9 @@ void Run::anneal(const std::stop_token& stop) {
     publish_placement(annealing);
   }
   const bool finished = annealing.state().done;
-  AnnealResult result = annealing.result();
+  auto result = std::make_shared<const AnnealResult>(annealing.result());
   auto best = std::make_shared<const Placement>(
-      Placement{result.tile.move, result.tile.energy, annealing.state().proposals});
+      Placement{result->tile.move, result->tile.energy, annealing.state().proposals});
   const std::scoped_lock lock(mutex_);
   placement_ = std::move(best);
   result_ = std::move(result);
@@ -123,11 +123,14 @@ Run::Next Run::next(const std::stop_token& stop, const Annealing& annealing) {
     lock.unlock();
     const AnnealState state = annealing.state();
     auto now = std::make_shared<const Placement>(Placement{annealing.move(), state.energy, state.proposals});
+    auto best = std::make_shared<const AnnealResult>(annealing.result());
     lock.lock();
     placement_ = std::move(now);
+    result_ = std::move(best);
     standing_.phase = Phase::paused;
     standing_.seconds_left.reset();
     wished_.wait(lock, stop, [&] { return wants_running_ || wanted_sweeps_ > 0; });
+    result_.reset();
     if (stop.stop_requested()) return Next::nothing;
     standing_.phase = Phase::running;
   }

@@ -79,8 +79,8 @@ class Run {
   /// The latest placement: the traced chain's of some moment while it runs, exactly that of now when it is
   /// paused, the best when it has ended. Asks for the next one. Null: none yet.
   std::shared_ptr<const Placement> placement();
-  /// Once finished or stopped.
-  std::optional<AnnealResult> result() const;
+  /// The best so far: of a paused run, or one that has finished or was stopped. Null: none.
+  std::shared_ptr<const AnnealResult> result() const;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -103,7 +103,7 @@ class Run {
   bool wants_placement_ = true;
   Standing standing_;
   std::shared_ptr<const Placement> placement_;
-  std::optional<AnnealResult> result_;
+  std::shared_ptr<const AnnealResult> result_;
 
   // For the run's thread alone.
   double speed_from_s_ = 0.0;

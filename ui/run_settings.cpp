@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "ui/parameters.h"
 #include "ui/plot.h"
@@ -14,8 +16,7 @@ namespace {
 
 using Rule = StartTemperature::Rule;
 
-constexpr double kMostProposals = 1e15;
-constexpr double kHottest = 1e15;
+constexpr double kAny = std::numeric_limits<double>::max();
 
 const std::vector<std::string>& schedules() {
   static const std::vector<std::string> names = [] {
@@ -54,11 +55,21 @@ void RunSettings::parameters(Parameters& p) {
   p("run.wrap", wraps);
   p("run.schedule", schedule, 0, static_cast<int>(schedules().size()) - 1);
   p("run.start.rule", start_rule, 0, 3);
-  p("run.start.temperature", start_temperature, 1e-9, kHottest);
-  p("run.start.acceptance", start_acceptance, 0.001, 0.999);
-  p("run.end.auto", auto_end);
-  p("run.end.temperature", end_temperature, 1e-9, kHottest);
-  p("run.proposals", proposals, 1.0, kMostProposals);
+  p("run.start.temperature", start_temperature);
+  p("run.start.acceptance", start_acceptance);
+  p("run.end.temperature", end_temperature);
+  for (std::size_t i = 0; i < constants.size(); ++i) {
+    const auto name = [&](const char* key) { return "run." + schedules().at(i) + "." + key; };
+    ScheduleParameters& c = constants[i];
+    p(name("factor").c_str(), c.factor);
+    p(name("slope").c_str(), c.slope);
+    p(name("hajek_c").c_str(), c.hajek_c);
+    p(name("stages").c_str(), c.stages);
+    p(name("accepted_per_stage").c_str(), c.accepted_per_stage);
+    p(name("tried_per_stage").c_str(), c.tried_per_stage);
+    p(name("frozen_stages").c_str(), c.frozen_stages);
+  }
+  p("run.proposals", proposals, -kAny, kAny);
   p("run.seed", seed, 0, kMostSeed);
   p("run.threads", threads, 1, 64);
 }
@@ -93,10 +104,12 @@ AnnealProblem RunSettings::problem(const Source& source) const {
 AnnealOptions RunSettings::options() const {
   AnnealOptions options;
   options.schedule = schedule_name();
+  options.parameters = constants.at(static_cast<std::size_t>(schedule));
   options.start.rule = static_cast<Rule>(start_rule);
-  options.start.value = options.start.rule == Rule::acceptance ? start_acceptance : start_temperature;
-  options.end_temperature = auto_end ? 0.0 : end_temperature;
-  options.proposals = static_cast<std::int64_t>(std::clamp(proposals, 1.0, kMostProposals));
+  options.start.value =
+      (options.start.rule == Rule::acceptance ? start_acceptance : start_temperature).value_or(0.0);
+  options.end_temperature = end_temperature.value_or(0.0);
+  options.proposals = static_cast<std::int64_t>(std::clamp(proposals, -0x1p62, 0x1p63 - 1024.0));
   options.seed = static_cast<std::uint64_t>(seed);
   return options;
 }
@@ -115,8 +128,6 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
                  .limit = "what a recipe can make again",
                  .remedy = std::move(remedy)});
   };
-  if (metric == 2)
-    refuse("a filtered residual, which recipes do not know", "anneal with L1 or L2 to save a texture");
   const int range = std::max(std::abs(motion_x), std::abs(motion_y));
   constexpr int kMostMotion = 8;
   if (range > kMostMotion) {
@@ -129,16 +140,15 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
   if (!auto_step) entry.step = Offset{step_x, step_y};
   entry.options.radius = radius;
   entry.options.reach = static_cast<Reach>(reach);
-  entry.options.metric = static_cast<Metric>(metric);
+  entry.options.metric = metric == 0 ? Metric::l1 : Metric::l2;
   entry.options.wrap = wraps;
   entry.motion = range;
   entry.outputs = {{.path = tile.string(), .motion = {motion_x, motion_y}}};
   AnnealMethod method;
   method.options = options();
-  method.options.checkpoint = {};
-  // Where the temperatures came from a sample, those that it came to.
-  if (options().start.rule == Rule::everything)
-    method.options.start = {Rule::given, result.start_temperature};
+  if (metric == 2) method.residual_sigma_px = residual_sigma_px;
+  if (!result.frozen && result.proposals < method.options.proposals)
+    method.options.stop_after = result.proposals;
   entry.anneal = method;
   return entry;
 }
@@ -191,25 +201,100 @@ void draw_energy_settings(RunSettings& s, const Source* source) {
   slider("Motion y", s.motion_y, -8, 8, "How far the picture moves down from frame to frame");
 }
 
-void draw_schedule_settings(RunSettings& s) {
+namespace {
+
+/// "auto: 0.5" while what follows from the other settings is known.
+std::string automatic(const std::optional<double>& value) {
+  return value ? "auto: " + short_number(*value) : "auto";
+}
+
+/// The constants of the schedule, whichever it is.
+struct Constants {
+  std::optional<double> factor, slope, c, end, stages, accepted, tried, frozen;
+};
+Constants constants_of(const Plan& plan) {
+  Constants known;
+  known.end = plan.temperatures.end;
+  if (const auto* s = std::get_if<ExponentialCooling>(&plan.schedule)) known.factor = s->factor;
+  if (const auto* s = std::get_if<InverseCooling>(&plan.schedule)) known.factor = s->factor;
+  if (const auto* s = std::get_if<LinearCooling>(&plan.schedule)) known.slope = s->slope;
+  if (const auto* s = std::get_if<HajekCooling>(&plan.schedule)) known.c = s->c;
+  if (const auto* s = std::get_if<KirkpatrickCooling>(&plan.schedule)) {
+    known.factor = s->factor, known.frozen = s->frozen_stages;
+    if (s->stages > 0) known.stages = s->stages;
+    known.accepted = static_cast<double>(s->accepted_per_stage);
+    known.tried = static_cast<double>(s->tried_per_stage);
+  }
+  return known;
+}
+
+}  // namespace
+
+void draw_schedule_settings(RunSettings& s, const Plan* plan, const ErrorInfo* refusal) {
+  const Constants known = plan != nullptr ? constants_of(*plan) : Constants{};
+  ScheduleParameters& c = s.constants.at(static_cast<std::size_t>(s.schedule));
+  const std::string name = s.schedule_name();
+  // `where` is the setting's name in recipes, by which the library calls it.
+  const auto complain_of = [&](std::string_view where) {
+    if (refusal == nullptr || (refusal->where != where && !where.empty())) return;
+    complaint("Refused", Error(*std::exchange(refusal, nullptr)).what());
+  };
+  const auto constant = [&](const char* label, const char* where, auto& value, const std::string& otherwise,
+                            const char* hint) {
+    field(label, value, otherwise, hint);
+    complain_of(where);
+  };
   heading("Annealing");
   combo("Schedule", schedules(), s.schedule, "How the temperature falls");
   static constexpr const char* kRules[] = {"Auto", "T", "Accept", "All"};
   choice("Start", kRules, s.start_rule,
          "The first temperature: from the image; a number; one that accepts a share of the worsening swaps; "
-         "one that accepts "
-         "nearly all");
-  if (s.start_rule == 1)
-    field("Start T", s.start_temperature, 1e-9, kHottest, "%.6g", "In units of the energy");
-  if (s.start_rule == 2)
-    slider("Accepted", s.start_acceptance, 0.001, 0.999, "%.3f", true,
-           "Share of worsening swaps accepted at first");
-  checkbox("Auto end", s.auto_end, "The last temperature from the image");
-  if (!s.auto_end) field("End T", s.end_temperature, 1e-9, kHottest, "%.6g", "At most the start");
-  field("Proposals", s.proposals, 1.0, kMostProposals, "%.6g",
+         "one that accepts nearly all");
+  if (s.start_rule == 1) {
+    constant("Start T", "start_temperature", s.start_temperature, "", "In units of the energy");
+  } else if (s.start_rule == 2) {
+    constant("Acceptance", "initial_acceptance", s.start_acceptance, "",
+             "Share of the worsening swaps that are accepted at first");
+  }
+  complain_of("start_temperature");
+  constant("End T", "end_temperature", s.end_temperature, automatic(known.end),
+           "The last temperature; at most the first. Empty: from the image");
+  if (name == "exponential" || name == "inverse") {
+    // So near to 1, or so small, that what differs is said.
+    const bool near_one = known.factor && name == "exponential" && *known.factor > 0.999;
+    constant("Factor a", "factor", c.factor,
+             near_one ? "auto: " + factor_text(*known.factor) : automatic(known.factor),
+             "Of a proposal. Empty: the one that meets the end temperature");
+  }
+  if (name == "linear") {
+    constant(
+        "Slope μ", "slope", c.slope, automatic(known.slope),
+        "By how much the temperature falls with a proposal. Empty: so that it meets the end temperature");
+  }
+  if (name == "hajek") {
+    constant("Constant c", "hajek_c", c.hajek_c, automatic(known.c),
+             "The depth of the deepest local minimum, or more, for a proof of convergence. Empty: so that it "
+             "meets the end temperature");
+  }
+  if (name == "kirkpatrick") {
+    constant("Factor a", "factor", c.factor, automatic(known.factor),
+             "Of a stage, below 1. Empty: the one that meets the end temperature");
+    constant("Stages", "stages", c.stages,
+             known.tried && !known.stages ? "as many as it takes" : automatic(known.stages),
+             "So many share the proposals: what one saves goes to those that follow");
+    constant("Accepted cap", "accepted_per_stage", c.accepted_per_stage, automatic(known.accepted),
+             "A stage ends after so many accepted swaps: quasi-equilibrium");
+    constant("Tried cap", "tried_per_stage", c.tried_per_stage, automatic(known.tried),
+             "Or after so many proposals; without stages, of each alone");
+    constant("Frozen after", "frozen_stages", c.frozen_stages, automatic(known.frozen),
+             "The run ends after so many stages in a row without a change");
+  }
+  field("Proposals", s.proposals, -kAny, kAny, "%.6g",
         "The budget: pairs of seeds that are tried, such as 1e9");
+  complain_of("proposals");
   field("Seed", s.seed, 0, std::numeric_limits<std::int64_t>::max(), "Of annealing's random numbers");
   slider("Threads", s.threads, 1, 16, "Useful from 128 rows on; they change no byte");
+  complain_of("");
 }
 
 Formula formula_of(const CoolingSchedule& schedule) {
@@ -247,10 +332,10 @@ Formula formula_of(const CoolingSchedule& schedule) {
   return std::visit(Write{}, schedule);
 }
 
-PlannedCurve planned_curve(const CoolingSchedule& schedule, std::int64_t proposals, int count) {
+PlannedCurve planned_curve(const Plan& plan, int count) {
   PlannedCurve curve;
   for (int i = 0; i < count; ++i) {
-    const double step = static_cast<double>(proposals) * i / (count - 1);
+    const double step = static_cast<double>(plan.proposals) * i / (count - 1);
     const double temperature = std::visit(
         [&](const auto& s) {
           if constexpr (requires { s.at_stage(0); }) {
@@ -259,7 +344,7 @@ PlannedCurve planned_curve(const CoolingSchedule& schedule, std::int64_t proposa
             return s.at(step);
           }
         },
-        schedule);
+        plan.schedule);
     curve.proposals.push_back(step);
     curve.temperature.push_back(temperature);
   }

@@ -4,7 +4,9 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "bn/bake.h"
@@ -32,12 +34,12 @@ struct RunSettings {
   int motion_x = 0, motion_y = 0;
   bool wraps = true;
   // annealing
-  int schedule = 0;                ///< index into schedule_names()
-  int start_rule = 0;              ///< as StartTemperature::Rule
-  double start_temperature = 3.0;  ///< given
-  double start_acceptance = 0.2;   ///< of that rule
-  bool auto_end = true;
-  double end_temperature = 0.5;
+  int schedule = 0;                                                       ///< index into schedule_names()
+  int start_rule = 0;                                                     ///< as StartTemperature::Rule
+  std::optional<double> start_temperature = 3.0, start_acceptance = 0.2;  ///< of those rules
+  std::optional<double> end_temperature = {};                             ///< none: automatic
+  std::array<ScheduleParameters, std::variant_size_v<CoolingSchedule>> constants =
+      {};  ///< of schedule_names()
   double proposals = 1e9;
   std::int64_t seed = 1;
   int threads = 1;
@@ -50,15 +52,24 @@ struct RunSettings {
   std::string schedule_name() const;
   /// "exponential, 1e9 proposals, seed 1".
   std::string text() const;
-  /// The same run as a recipe has it, for a tile at `file`. Errors: invalid_input, saying what recipes
-  /// cannot.
+  /// The same run as a recipe has it, for a tile at `file`: where `result` is of a run that was not finished,
+  /// ended where that one is. Errors: invalid_input, saying what recipes cannot.
   RetargetEntry entry(const AnnealResult& result, const std::filesystem::path& file) const;
 };
 
-/// The widgets of these settings, one group each. `source` may be null. True: the image must be loaded again.
+/// What settings make of an image before any run.
+struct Plan {
+  TemperatureRange temperatures;
+  CoolingSchedule schedule;
+  std::int64_t proposals = 0;  ///< that it cools over: the last 64th of the budget is spent at temperature 0
+};
+
+/// The widgets of these settings, one group each. `source` may be null.
 void draw_image_settings(RunSettings& settings, const Source* source);
 void draw_energy_settings(RunSettings& settings, const Source* source);
-void draw_schedule_settings(RunSettings& settings);
+/// `plan`: what the settings came to; null: nothing yet. `refusal`: what the library says against them, which
+/// is shown below the setting in question; null: nothing.
+void draw_schedule_settings(RunSettings& settings, const Plan* plan, const ErrorInfo* refusal);
 
 /// The formula of a schedule, and what stands in it.
 struct Formula {
@@ -67,11 +78,10 @@ struct Formula {
 };
 Formula formula_of(const CoolingSchedule& schedule);
 
-/// The temperature at each of `count` steps, evenly over a run of `proposals`, as it is planned: stages at
-/// their longest.
+/// The temperature at each of `count` steps, evenly over a run, as it is planned: stages at their longest.
 struct PlannedCurve {
   std::vector<double> proposals, temperature;
 };
-PlannedCurve planned_curve(const CoolingSchedule& schedule, std::int64_t proposals, int count);
+PlannedCurve planned_curve(const Plan& plan, int count);
 
 }  // namespace bn::ui

@@ -65,7 +65,7 @@ void RunView::parameters(Parameters& p) {
 }
 
 bool RunView::busy() const {
-  if (loading_.running() || previewing_.running() || saving_.running() || start_wanted_ || pictures_.busy())
+  if (loading_.running() || planning_.running() || saving_.running() || start_wanted_ || pictures_.busy())
     return true;
   if (!entry_) return false;
   const Phase phase = entry_->run->standing().phase;
@@ -126,18 +126,20 @@ void RunView::draw_settings(App& app) {
             [this](const std::filesystem::path& path) { open(path); });
   }
   draw_energy_settings(settings_, source_.get());
-  draw_schedule_settings(settings_);
-  draw_preview();
+  draw_schedule_settings(settings_, plan_ ? &*plan_ : nullptr, refusal_ ? &*refusal_ : nullptr);
+  draw_formula();
 }
 
-void RunView::draw_preview() {
-  if (!preview_) return;
-  const Formula formula = formula_of(preview_->schedule);
+void RunView::draw_formula() {
+  if (!plan_) return;
+  const Formula formula = formula_of(plan_->schedule);
   ImGui::PushFont(mono_font());
   ImGui::TextWrapped("%s", formula.text.c_str());
   items::record("Formula", formula.text);
   ImGui::PopFont();
-  for (const std::string& line : formula.where) note(line);
+  const std::string where = fmt::format("{}", fmt::join(formula.where, "\n"));
+  note(where);
+  items::record("Where", where);
 }
 
 void RunView::handle_shortcuts(App& app) {
@@ -152,7 +154,7 @@ void RunView::handle_shortcuts(App& app) {
     }
   }
   if (shortcut("s") && live) entry_->run->sweep();
-  if (shortcut("ctrl+s") && entry_ && entry_->run->standing().phase == Phase::finished) ask_save(app);
+  if (shortcut("ctrl+s") && can_save()) ask_save(app);
 }
 
 void RunView::draw_controls(App& app) {
@@ -177,8 +179,10 @@ void RunView::draw_controls(App& app) {
     fresh(false);
   }
   if (next("Stop", live, "For good; what was found stays")) run->stop();
-  if (next("Save texture …", phase == Phase::finished && run != nullptr && !saving_.running(),
-           "The tile as a file that bn verify proves (Ctrl+S). Of a finished run: its recipe makes it again",
+  if (next("Save texture …", can_save(),
+           "The best tile so far, as a file that bn verify proves (Ctrl+S); its recipe makes it again. Once "
+           "the run "
+           "has ended or is paused, after its first round",
            1.5f)) {
     ask_save(app);
   }
@@ -192,8 +196,7 @@ void RunView::draw_standing() {
   const Standing standing = entry_ ? entry_->run->standing() : Standing{};
   const AnnealState& state = standing.state;
   const bool any = entry_ != nullptr && standing.phase != Phase::preparing && standing.phase != Phase::failed;
-  const auto placement = any ? entry_->run->placement() : nullptr;
-  const auto result = any ? entry_->run->result() : std::nullopt;
+  const auto result = any && standing.phase >= Phase::finished ? entry_->run->result() : nullptr;
   const double budget = any ? static_cast<double>(entry_->run->setup().options.proposals) : 1.0;
   const std::int64_t energy = result ? result->tile.energy : state.energy;
   const auto gap = any ? gap_percent(*entry_, energy) : std::nullopt;
@@ -271,9 +274,9 @@ void RunView::draw_plots(ImVec2 size) {
     for (Figure* figure : {&energy, &temperature, &acceptance, &surface})
       figure->empty = "starts with the run";
   }
-  if (preview_) {
+  if (plan_) {
     // Before the run it is the preview; during it, what an adaptive schedule departs from.
-    PlannedCurve planned = planned_curve(preview_->schedule, preview_->proposals, 200);
+    PlannedCurve planned = planned_curve(*plan_, 200);
     Curve curve;
     curve.name = "planned";
     curve.colour = palette().dim_text;
@@ -284,8 +287,7 @@ void RunView::draw_plots(ImVec2 size) {
     temperature.x.name = "proposals";
     temperature.x.low = 0.0;
     temperature.y.logarithmic = true;
-    temperature.x.high =
-        std::max(entry_ ? temperature.x.high : 0.0, static_cast<double>(preview_->proposals));
+    temperature.x.high = std::max(entry_ ? temperature.x.high : 0.0, static_cast<double>(plan_->proposals));
   }
   const float last_width = columns == 1 ? width : columns == 2 ? width : 2 * width + gap;
   energy_plot_.draw("Energy plot", energy, {width, height}, plot_link_);

@@ -25,12 +25,6 @@ class RunView {
   void open(const std::filesystem::path& image);
 
  private:
-  /// What the settings would make of the image: found off the window's thread.
-  struct Preview {
-    TemperatureRange temperatures;
-    CoolingSchedule schedule;
-    std::int64_t proposals = 0;
-  };
   struct Saved {
     std::filesystem::path file;
     std::string detail;
@@ -38,14 +32,16 @@ class RunView {
 
   void update(App& app);
   void load_source(App& app);
-  void make_preview(App& app);
+  void make_plan(App& app);
   void begin_run(App& app);
   void begin_when_ready(App& app);
+  /// Whether the run has a best placement that a recipe can make again: after its first round.
+  bool can_save() const;
   void save(App& app, const std::filesystem::path& file);
   void ask_save(App& app);
   void handle_shortcuts(App& app);
   void draw_settings(App& app);
-  void draw_preview();
+  void draw_formula();
   void draw_controls(App& app);
   void draw_standing();
   void draw_plots(ImVec2 size);
@@ -58,9 +54,10 @@ class RunView {
   SourceChoice loaded_choice_;
   bool load_failed_ = false;
   std::shared_ptr<const Source> source_;  ///< of the settings as they are; null while it loads
-  Task<Preview> previewing_;
-  std::string previewed_;  ///< the settings that the preview is of
-  std::optional<Preview> preview_;
+  Task<Plan> planning_;                   ///< off the window's thread: a start temperature may take a trial
+  std::string planned_;                   ///< the settings that the plan is of
+  std::optional<Plan> plan_;
+  std::optional<ErrorInfo> refusal_;  ///< why there is none
 
   bool start_wanted_ = false, start_paused_ = false;
   int runs_ = 0;

@@ -39,32 +39,38 @@ void RunView::load_source(App& app) {
   }
 }
 
-void RunView::make_preview(App& app) {
+void RunView::make_plan(App& app) {
   if (source_ && !ImGui::IsAnyItemActive()) {
     Settings all;
     Parameters saving = Parameters::saving(all);
     settings_.parameters(saving);
     std::string now;
     for (const auto& [name, text] : all) now += name + '=' + text + '\n';
-    if (now != previewed_) {
-      previewed_ = now;
-      previewing_.start(
+    if (now != planned_) {
+      planned_ = now;
+      planning_.start(
           [source = source_, problem = settings_.problem(*source_),
            options = settings_.options()](const Execution& execution) {
-            // An annealing that makes no step knows the temperatures that it would have.
-            const AnnealResult result = Annealing(problem, options, execution).result();
-            const TemperatureRange range{result.start_temperature, result.end_temperature};
-            // As the annealer plans it: the last 64th of the budget is spent at temperature 0.
-            const std::int64_t cooled = std::max<std::int64_t>(1, options.proposals - options.proposals / 64);
-            return Preview{range, make_schedule(options.schedule, range.start, range.end, cooled), cooled};
+            // An annealing that makes no step knows what it would do.
+            const Annealing annealing(problem, options, execution);
+            const AnnealResult result = annealing.result();
+            return Plan{{result.start_temperature, result.end_temperature},
+                        annealing.schedule(),
+                        std::max<std::int64_t>(1, options.proposals - options.proposals / 64)};
           },
           1);
     }
   }
   try {
-    if (auto preview = previewing_.poll()) preview_ = std::move(preview);
+    if (auto plan = planning_.poll()) {
+      plan_ = std::move(plan);
+      refusal_.reset();
+    }
+  } catch (const Error& error) {
+    plan_.reset();
+    if (error.code() != ErrorCode::cancelled) refusal_ = error.info();
   } catch (...) {
-    preview_.reset();
+    plan_.reset();
     app.report_in_flight();
   }
 }
@@ -72,6 +78,7 @@ void RunView::make_preview(App& app) {
 void RunView::begin_run(App& app) {
   try {
     check_source(*source_);
+    if (refusal_ && !planning_.running()) throw Error(*refusal_);
     auto entry = std::make_shared<RunEntry>();
     entry->number = runs_ + 1;
     entry->source = source_;
@@ -105,7 +112,7 @@ void RunView::begin_when_ready(App& app) {
 
 void RunView::update(App& app) {
   load_source(app);
-  make_preview(app);
+  make_plan(app);
   begin_when_ready(app);
   try {
     if (auto saved = saving_.poll())
@@ -123,13 +130,22 @@ void RunView::update(App& app) {
   }
 }
 
+bool RunView::can_save() const {
+  if (!entry_ || saving_.running()) return false;
+  const auto result = entry_->run->result();
+  return result && result->proposals > 0;
+}
+
 void RunView::save(App& app, const std::filesystem::path& file) {
+  const auto result = entry_->run->result();
+  if (!result) return;  // it goes on, since the user was asked for a name
   try {
-    const auto result = entry_->run->result();
-    RetargetEntry entry = entry_->settings.entry(result.value(), file);
+    RetargetEntry entry = entry_->settings.entry(*result, file);
     RetargetTile tile = result->tile;
     const RetargetTile* optimum = entry_->optimum ? entry_->optimum->tile() : nullptr;
-    tile.lower_bound = optimum != nullptr ? optimum->lower_bound : -1;
+    const bool residual = entry.anneal->residual_sigma_px > 0.0;
+    // Nothing but 0 is proven of a residual; what is not proven yet is -1.
+    tile.lower_bound = residual ? 0 : optimum != nullptr ? optimum->lower_bound : -1;
     saving_.start([entry, tile, source = entry_->source, file](const Execution& execution) mutable {
       if (source->choice.baked) {
         // A tile names its source; a mask that was baked on the spot becomes a file beside it.
@@ -148,7 +164,12 @@ void RunView::save(App& app, const std::filesystem::path& file) {
         tile.lower_bound = solve_retarget(source->levels.value, bound, execution).lower_bound;
       }
       write_retarget(entry, tile, execution);
-      return Saved{file, fmt::format("energy {}, at least {}", tile.energy, tile.lower_bound)};
+      std::string detail = fmt::format("energy {}, at least {}", tile.energy, tile.lower_bound);
+      if (const std::int64_t made = entry.anneal->options.stop_after; made > 0) {
+        detail += fmt::format("; stopped after {} of {} proposals", short_number(static_cast<double>(made)),
+                              short_number(static_cast<double>(entry.anneal->options.proposals)));
+      }
+      return Saved{file, detail};
     });
   } catch (...) {
     app.report_in_flight();

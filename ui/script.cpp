@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <map>
@@ -217,9 +218,25 @@ bool Script::before_frame(App& app) {
     const Command& command = commands_[next_++];
     line_ = command.line;
     if (command.words[0] == "quit") return false;
+    if (scrolls_to(command)) {
+      --next_;  // again, once it is in sight
+      frames_to_wait_ = 3;
+      continue;
+    }
     start(app, command);
     if (measuring_) return true;
   }
+}
+
+bool Script::scrolls_to(const Command& command) {
+  static constexpr std::array kOnItems{"click", "right-click", "double-click", "hover",
+                                       "drag",  "wheel",       "set",          "choose"};
+  const auto& words = command.words;
+  if (std::find(kOnItems.begin(), kOnItems.end(), words[0]) == kOnItems.end()) return false;
+  const Item* found = items::find(words[1]);
+  if (found == nullptr || found->whole || std::exchange(scrolled_to_, line_) == line_) return false;
+  items::scroll_to(words[1]);
+  return true;
 }
 
 void Script::apply(const Input& input) {
@@ -284,7 +301,7 @@ void Script::start(App& app, const Command& command) {
     queue_click(at, false, true);
     mouse_ = at;
     queue_key("ctrl+a");
-    queue_text(words[2]);
+    words[2].empty() ? queue_key("delete") : queue_text(words[2]);
     queue_key("enter");
   } else if (verb == "choose") {
     // The list opens first; then the entry is on the screen.

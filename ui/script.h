@@ -52,6 +52,8 @@ class Script {
 
   /// Starts a command; it may queue inputs, or leave something to wait for.
   void start(App& app, const Command& command);
+  /// Has the item that the command acts on scrolled into sight, where it is not. True: it waits for that.
+  bool scrolls_to(const Command& command);
   void apply(const Input& input);
   bool holds(const std::vector<std::string>& condition, std::string& found) const;
   const Item& item(const std::string& name) const;
@@ -66,7 +68,7 @@ class Script {
   std::string name_;
   std::vector<Command> commands_;
   std::size_t next_ = 0;
-  int line_ = 0;
+  int line_ = 0, scrolled_to_ = -1;  ///< the latter: the line for whose sake it was scrolled
   std::deque<Input> inputs_;
   ImVec2 mouse_{-1, -1};
   int frames_to_wait_ = 0;

@@ -114,6 +114,15 @@ void TextureView::draw_metadata() {
   const Metadata& m = *texture_->metadata;
   value("Kind", m.kind);
   value("Algorithm", fmt::format("{}, version {}", m.algorithm, m.algorithm_version));
+  if (const auto& a = texture_->annealing) {
+    const std::string budget = short_number(static_cast<double>(a->proposals)) + " proposals";
+    const bool stopped = a->stop_after > 0;
+    value("Annealed",
+          stopped ? fmt::format("{}, stopped after {} of {}", a->schedule,
+                                short_number(static_cast<double>(a->stop_after)), budget)
+                  : fmt::format("{}, {}", a->schedule, budget),
+          stopped ? palette().warn : palette().text);
+  }
   if (m.seed) value("Seed", fmt::format("{}", *m.seed));
   if (m.step) value("Step", fmt::format("({}, {})", m.step->x, m.step->y));
   if (m.radius) value("Radius", fmt::format("{}{}", *m.radius, m.reach ? ", " + *m.reach : ""));

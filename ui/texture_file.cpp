@@ -8,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bn/bake.h"
 #include "ui/run_pictures.h"
 
 namespace bn::ui {
@@ -45,6 +46,18 @@ std::vector<fs::path> images_in(const fs::path& folder) {
 std::string shape_text(const Image& image) {
   return fmt::format("{} x {}, {} channels, {}", image.size.width, image.size.height, image.channels,
                      name_of(image.type));
+}
+
+std::optional<AnnealOptions> annealing_of(const Metadata& metadata) {
+  if (metadata.algorithm != "retarget-anneal") return {};
+  try {
+    const Recipe recipe = parse_recipe(metadata.recipe, "recipe", {});
+    if (recipe.retargets.size() == 1 && recipe.retargets[0].anneal)
+      return recipe.retargets[0].anneal->options;
+  } catch (const Error&) {
+    // What is wrong with it, the verdict says.
+  }
+  return {};
 }
 
 bool same_shape(const Image& a, const Image& b) {
@@ -87,6 +100,7 @@ TextureFile read_texture(const fs::path& path, const Execution& execution) {
       texture.hash_fits = !content.metadata || content.metadata->pixel_hash == pixel_hash(content.image);
       texture.metadata = std::move(content.metadata);
       texture.metadata_fault = std::move(content.metadata_fault);
+      if (texture.metadata) texture.annealing = annealing_of(*texture.metadata);
     } else if (!same_shape(texture.images[0], content.image)) {
       throw failure(ErrorCode::invalid_input, file, "a slice of " + shape_text(content.image),
                     shape_text(texture.images[0]) + ", as the first", "open the file by itself");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bn/anneal.h"
 #include "bn/spectrum.h"
 #include "bn/texture.h"
 #include "ui/image_view.h"
@@ -19,7 +20,8 @@ struct TextureFile {
   std::vector<Image> images;                 ///< one a file, of one size, type and number of channels
   std::optional<Metadata> metadata;          ///< of the first file
   std::string metadata_fault;
-  bool hash_fits = true;  ///< of the first file
+  bool hash_fits = true;                   ///< of the first file
+  std::optional<AnnealOptions> annealing;  ///< how it was made, by its recipe, where it was annealed
 };
 
 /// Bytes of samples that one texture may have.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/parameters.h"
+
 namespace bn::ui {
 namespace {
 
@@ -32,6 +34,14 @@ void end_row(std::string_view hint) {
   ImGui::EndGroup();
   tooltip(hint);
   ImGui::PopID();
+}
+
+void wrapped(std::string_view text, ImU32 colour) {
+  ImGui::PushStyleColor(ImGuiCol_Text, colour);
+  ImGui::PushTextWrapPos(0.0f);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
 }
 
 bool recorded_button(const char* label, bool enabled, std::string_view hint) {
@@ -177,6 +187,28 @@ bool field(const char* label, std::string& value, std::string_view hint) {
   return done;
 }
 
+template <class T>
+bool field(const char* label, std::optional<T>& value, std::string_view otherwise, std::string_view hint) {
+  begin_row(label);
+  std::string text = value ? fmt::format("{}", *value) : "";
+  // While it is held ImGui keeps the text, so a number that is half typed may be anything.
+  if (ImGui::InputTextWithHint("##value", std::string(otherwise).c_str(), &text)) {
+    T number{};
+    if (text.empty()) {
+      value.reset();
+    } else if (read_number(text, number)) {
+      value = number;
+    }
+  }
+  items::record(label, value ? fmt::format("{}", *value) : std::string(otherwise));
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  end_row(hint);
+  return done;
+}
+template bool field(const char*, std::optional<int>&, std::string_view, std::string_view);
+template bool field(const char*, std::optional<std::int64_t>&, std::string_view, std::string_view);
+template bool field(const char*, std::optional<double>&, std::string_view, std::string_view);
+
 bool selectable(const char* label, bool selected, bool enabled) {
   const bool clicked =
       ImGui::Selectable(label, selected, enabled ? ImGuiSelectableFlags_None : ImGuiSelectableFlags_Disabled);
@@ -212,11 +244,7 @@ void value(const char* label, std::string_view text, ImU32 colour, std::string_v
   ImGui::TextUnformatted(label, end_of(label));
   ImGui::PopStyleColor();
   ImGui::SameLine(label_width_em > 0 ? em(label_width_em) : 0.0f);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
+  wrapped(text, colour);
   items::record(label, text);
   ImGui::EndGroup();
   tooltip(hint);
@@ -229,12 +257,13 @@ void heading(const char* text) {
   ImGui::PopFont();
 }
 
-void note(std::string_view text) {
-  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
-  ImGui::PushTextWrapPos(0.0f);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
+void note(std::string_view text) { wrapped(text, palette().dim_text); }
+
+void complaint(const char* name, std::string_view text) {
+  ImGui::BeginGroup();
+  wrapped(text, palette().bad);
+  ImGui::EndGroup();
+  items::record(name, text);
 }
 
 void progress_bar(const char* label, double share, std::string_view text) {

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -42,6 +43,11 @@ bool field(const char* label, std::int64_t& value, std::int64_t low, std::int64_
 bool field(const char* label, double& value, double low, double high, const char* format = "%.6g",
            std::string_view hint = {});
 bool field(const char* label, std::string& value, std::string_view hint = {});
+/// A number of any range, for whoever judges it to say what is wrong; none where the field is empty, which
+/// then shows `otherwise` in the dim colour: what holds instead.
+template <class T>
+bool field(const char* label, std::optional<T>& value, std::string_view otherwise,
+           std::string_view hint = {});
 
 bool selectable(const char* label, bool selected, bool enabled = true);
 bool menu_item(const char* label, const char* keys = nullptr, bool selected = false, bool enabled = true);
@@ -56,6 +62,8 @@ void value(const char* label, std::string_view text, ImU32 colour, std::string_v
 void heading(const char* text);
 /// Text in the dim colour, wrapped.
 void note(std::string_view text);
+/// What is wrong with what stands above; recorded as `name`.
+void complaint(const char* name, std::string_view text);
 void progress_bar(const char* label, double share, std::string_view text);
 
 /// A child window with the panel's colour and padding. Size as ImGui::BeginChild. Call end_panel() always.

@@ -92,6 +92,152 @@ TEST(RunView, AnnealsTheReferenceImageAndSavesWhatIsProven) {
                       problem);
 }
 
+TEST(RunView, EveryConstantOfAScheduleIsTheUsersAndTheLibraryJudgesIt) {
+  const Workplace here;
+  expect_success(here.script(R"s(wait 2
+wait-for Where contains "a = 1 − "
+expect "Factor a" contains "auto: 1 − "
+set "Factor a" 0.999999
+wait-for Where contains "a = 1 − 1e-6"
+set "Factor a" 1.5
+wait-for Refused contains "factor: 1.5 (allowed: above 0, at most 1)"
+expect Formula gone
+click Start
+wait-for Error contains "factor: 1.5"
+expect State = "no run yet"
+click Dismiss
+key ctrl+z
+wait-for "Factor a" = 0.999999
+wait-for Refused gone
+set "End T" 0.5
+wait-for Refused contains "one of the two"
+set "End T" ""
+wait-for Refused gone
+
+choose Schedule kirkpatrick
+wait-for Stages = "auto: 100"
+expect "Factor a" contains auto
+set "Factor a" 0.9
+set Stages 50
+set "Accepted cap" 1000
+set "Tried cap" 1e5
+set "Frozen after" 2
+wait-for Where contains "a = 0.9"
+expect Where contains "a stage ends after 1000 accepted or 1e5 tried"
+expect Where contains "the run ends after 2 stages without a change"
+set Stages 0
+wait-for Refused contains "1..1000000"
+set Stages 20
+
+choose Schedule hajek
+wait-for Formula = "T(k) = c / ln(k + 2)"
+set "Constant c" 3
+wait-for Where = "c = 3"
+choose Schedule linear
+wait-for "Slope μ" contains auto
+set "Slope μ" -1
+wait-for Refused contains "slope: -1"
+set "Slope μ" ""
+click "Start: T"
+set "Start T" -1
+wait-for Refused contains "above 0, finite"
+set "Start T" 4
+set "End T" 5
+wait-for Refused contains "at most 4"
+set "End T" 0.25
+wait-for Where contains "start = 4, end = 0.25"
+click "Start: Accept"
+set Acceptance 0.9999
+wait-for Refused contains "0.001..0.999"
+set Acceptance 0.5
+wait-for Refused gone
+click "Start: All"
+wait-for Where contains "start = 510"
+click "Metric: Blurred"
+wait-for Refused contains "accept everything"
+click "Metric: L1"
+set Proposals 0
+wait-for Refused contains "1..2^62"
+set Proposals 1e6
+wait-for Refused gone
+)s",
+                             "--session s.json"));
+  // Each schedule keeps its own, from session to session.
+  expect_success(here.script(R"s(wait 2
+expect Schedule = linear
+expect "End T" = 0.25
+choose Schedule kirkpatrick
+wait-for "Factor a" = 0.9
+expect Stages = 20
+expect "Tried cap" = 100000
+choose Schedule exponential
+wait-for "Factor a" = 0.999999
+)s",
+                             "--session s.json"));
+}
+
+/// A tile that the window saved passes bn verify, and what it says of itself makes it again.
+void expect_it_is_made_again(const Workplace& here, const std::string& name,
+                             const std::vector<std::string>& recipe_says) {
+  for (const VerifyItem& item : verify_path(here / name)) EXPECT_TRUE(item.pass) << item.check << item.detail;
+  const Metadata saved = read_image(here / name).metadata.value();
+  EXPECT_EQ(saved.algorithm, "retarget-anneal");
+  for (const std::string& line : recipe_says)
+    EXPECT_NE(saved.recipe.find(line), std::string::npos) << line << " in\n" << saved.recipe;
+  bake(parse_recipe(saved.recipe, "embedded", here / ""), {.out_dir = here / "again"});
+  EXPECT_EQ(read_image(here / ("again/" + name)).metadata->pixel_hash, saved.pixel_hash);
+}
+
+TEST(RunView, SavesFilteredResidualsAndOwnConstants) {
+  const Workplace here;
+  expect_success(here.script(R"s(wait 2
+click "Metric: Blurred"
+set Proposals 2e6
+choose Schedule kirkpatrick
+set "Factor a" 0.9
+set "Tried cap" 20000
+click Start
+wait-for State = finished
+click "Save texture …"
+set Path blurred.png
+click Save
+wait-for Status contains Saved
+)s"));
+  expect_it_is_made_again(
+      here, "blurred.png",
+      {"residual_sigma = 1.0", "metric = \"l2\"", "factor = 0.9", "tried_per_stage = 20000"});
+}
+
+TEST(RunView, SavesTheBestOfARunThatIsPausedOrStopped) {
+  const Workplace here;
+  expect_success(here.script(R"s(wait 2
+set Proposals 1e12
+click Start
+wait-for Speed > 1e6
+expect "Save texture …" disabled
+click Pause
+wait-for State = paused
+wait-for "Save texture …" enabled
+click "Save texture …"
+set Path paused.png
+click Save
+wait-for Status contains "of 1e12 proposals"
+click "Go on"
+wait-for State = running
+click Stop
+wait-for State = stopped
+click "Save texture …"
+set Path stopped.png
+click Save
+wait-for Status contains "stopped.png"
+open stopped.png
+wait-for Annealed contains "exponential, stopped after"
+wait-for Verified contains pass
+)s"));
+  for (const char* name : {"paused.png", "stopped.png"})
+    expect_it_is_made_again(here, name, {"proposals = 1000000000000", "stop_after = "});
+}
+
 TEST(RunView, PausesStepsRestartsAndStops) {
   const Workplace here;
   expect_success(here.script(R"(wait 2
@@ -113,7 +259,6 @@ wait-for State = running
 click Stop
 wait-for State = stopped
 expect Stop disabled
-expect "Save texture …" disabled
 click Start
 wait-for State = running
 key space
