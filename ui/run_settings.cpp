@@ -297,6 +297,15 @@ void draw_schedule_settings(RunSettings& s, const Plan* plan, const ErrorInfo* r
   complain_of("");
 }
 
+Plan plan_of(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution) {
+  // An annealing that makes no step knows what it would do.
+  const Annealing annealing(problem, options, execution);
+  const AnnealResult result = annealing.result();
+  return {{result.start_temperature, result.end_temperature},
+          annealing.schedule(),
+          std::max<std::int64_t>(1, options.proposals - options.proposals / 64)};
+}
+
 Formula formula_of(const CoolingSchedule& schedule) {
   struct Write {
     Formula operator()(const ConstantCooling& s) const {

@@ -64,6 +64,9 @@ struct Plan {
   std::int64_t proposals = 0;  ///< that it cools over: the last 64th of the budget is spent at temperature 0
 };
 
+/// Errors: as anneal_retarget() of these. May take a trial run: off the window's thread.
+Plan plan_of(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution = {});
+
 /// The widgets of these settings, one group each. `source` may be null.
 void draw_image_settings(RunSettings& settings, const Source* source);
 void draw_energy_settings(RunSettings& settings, const Source* source);

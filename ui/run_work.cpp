@@ -48,17 +48,9 @@ void RunView::make_plan(App& app) {
     for (const auto& [name, text] : all) now += name + '=' + text + '\n';
     if (now != planned_) {
       planned_ = now;
-      planning_.start(
-          [source = source_, problem = settings_.problem(*source_),
-           options = settings_.options()](const Execution& execution) {
-            // An annealing that makes no step knows what it would do.
-            const Annealing annealing(problem, options, execution);
-            const AnnealResult result = annealing.result();
-            return Plan{{result.start_temperature, result.end_temperature},
-                        annealing.schedule(),
-                        std::max<std::int64_t>(1, options.proposals - options.proposals / 64)};
-          },
-          1);
+      planning_.start([problem = settings_.problem(*source_), options = settings_.options()](
+                          const Execution& execution) { return plan_of(problem, options, execution); },
+                      1);
     }
   }
   try {

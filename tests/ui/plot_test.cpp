@@ -1,9 +1,7 @@
-// Protects: what plots write beside their axes, that no range of numbers breaks them, and that the planned
-// curve of a schedule is the one that the library follows.
+// Protects: what plots write beside their axes, and that no range of numbers breaks them.
 #include <gtest/gtest.h>
 
 #include "ui/plot_scale.h"
-#include "ui/run_settings.h"
 
 namespace bn::ui {
 namespace {
@@ -68,48 +66,6 @@ TEST(Plot, ScalesAndBack) {
     EXPECT_DOUBLE_EQ(scale.share(1000.0), 1.0);
     EXPECT_NEAR(scale.value(scale.share(77.0)), 77.0, 1e-9);
   }
-}
-
-TEST(PlannedCurve, IsTheOneThatTheLibraryFollows) {
-  AnnealProblem problem;
-  problem.channels = {{Grid<std::int32_t>({16, 16})}};
-  for (std::size_t i = 0; i < 256; ++i)
-    problem.channels[0].levels[i] = static_cast<std::int32_t>(i * 167 % 256);
-  problem.retarget.step = {5, 3};
-  problem.retarget.radius = 3;
-  for (const auto name : schedule_names()) {
-    AnnealOptions options;
-    options.schedule = name;
-    options.proposals = 1'000'000;
-    AnnealTrace trace;
-    const AnnealResult result = anneal_retarget(problem, options, {}, &trace);
-    const std::int64_t cooled = options.proposals - options.proposals / 64;
-    const auto schedule = make_schedule(name, result.start_temperature, result.end_temperature, cooled);
-    const PlannedCurve planned = planned_curve(schedule, cooled, 513);
-    EXPECT_FALSE(formula_of(schedule).text.empty());
-    // Kirkpatrick's stages end when they may; the plan is their longest course.
-    if (name == "kirkpatrick") continue;
-    for (std::size_t i = 0; i < trace.size(); ++i) {
-      if (trace[i].proposals >= cooled) continue;
-      const double place = static_cast<double>(trace[i].proposals) / static_cast<double>(cooled) * 512.0;
-      const auto at = static_cast<std::size_t>(place);
-      const double low =
-          std::min(planned.temperature[at], planned.temperature[std::min<std::size_t>(512, at + 1)]);
-      EXPECT_GE(trace[i].temperature, low * 0.999) << name << ' ' << trace[i].proposals;
-      EXPECT_LE(trace[i].temperature, planned.temperature[at] * 1.001) << name << ' ' << trace[i].proposals;
-    }
-  }
-}
-
-TEST(RunSettings, SayWhatARecipeCannot) {
-  RunSettings settings;
-  AnnealResult result;
-  EXPECT_NO_THROW(settings.entry(result, "t.png"));
-  settings.metric = 2;
-  EXPECT_THROW(settings.entry(result, "t.png"), Error);
-  settings.metric = 0;
-  settings.motion_x = 9;
-  EXPECT_THROW(settings.entry(result, "t.png"), Error);
 }
 
 }  // namespace
