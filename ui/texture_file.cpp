@@ -75,7 +75,8 @@ bool has_image_name(const fs::path& path) {
 }
 
 TextureFile read_texture(const fs::path& path, const Execution& execution) {
-  TextureFile texture{.path = path, .files = {path}, .images = {}, .metadata = {}, .metadata_fault = {}};
+  TextureFile texture{
+      .path = path, .files = {path}, .images = {}, .metadata = {}, .metadata_fault = {}, .annealing = {}};
   std::error_code error;
   if (fs::is_directory(path, error)) {
     texture.files = images_in(path);
