@@ -76,17 +76,17 @@ const TileSchedule::Tile& TileSchedule::at(int column, int row) const {
   return tiles_[static_cast<std::size_t>(wrap(row, rows_) * columns_ + wrap(column, columns_))];
 }
 
-/// Whether no neighbour is out, and those of its chain have gone ahead on the left and above and are not
-/// behind elsewhere.
+/// Whether no neighbour is out, those of its chain on the left and above have gone ahead, the others of its
+/// chain are not behind, and those of other chains not by more than a visit.
 bool TileSchedule::may_go(const Tile& tile) const {
   for (int row = tile.row - 1; row <= tile.row + 1; ++row) {
     for (int column = tile.column - 1; column <= tile.column + 1; ++column) {
       const Tile& other = at(column, row);
-      if (other.out) return false;
       const bool in_chain = other.column == column && other.row == row &&
                             column * chains_x_ / columns_ == tile.column * chains_x_ / columns_ &&
                             row * chains_y_ / rows_ == tile.row * chains_y_ / rows_;
-      if (in_chain && other.visits < tile.visits + (&other < &tile ? 1 : 0)) return false;
+      const int ahead = !in_chain ? -1 : &other < &tile ? 1 : 0;
+      if (other.out || other.visits < tile.visits + ahead) return false;
     }
   }
   return true;
