@@ -35,6 +35,17 @@ TEST(Recipe, WrittenOutReadsBackTheSame) {
   EXPECT_EQ(recipe_text(parse_recipe(text, "again", "")), text);
 }
 
+// What fuzzing starts from must be accepted, or it finds refusals only.
+TEST(Recipe, TheFuzzersOwnAreSound) {
+  int count = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(BN_SOURCE_DIR) / "tests/fuzz/recipes")) {
+    ++count;
+    const std::string text = recipe_text(read_recipe(entry.path()));
+    EXPECT_EQ(recipe_text(parse_recipe(text, "again", "")), text) << entry.path();
+  }
+  EXPECT_GE(count, 3);
+}
+
 constexpr const char* kAnnealed = R"(version = 1
 [[retarget]]
 name = "a"

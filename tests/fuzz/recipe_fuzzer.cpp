@@ -1,8 +1,10 @@
 // Any bytes: the parser answers with a recipe or a bn::Error that says where; and a recipe that came
 // out, written out whole, reads back the same and keeps every promise of the language.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 
+#include "bn/anneal.h"
 #include "bn/bake.h"
 
 namespace {
@@ -42,6 +44,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(set.options.radius >= 1 && set.options.radius + set.motion <= 127, "moves fit 8 bits");
     require(set.options.gap >= 0.0 && set.options.gap <= 1.0, "the gap is a share");
     for (const RetargetOutput& output : set.outputs) check_inside(output.path);
+    if (!set.anneal) continue;
+    const AnnealMethod& anneal = *set.anneal;
+    check_anneal_options(anneal.options);
+    require(anneal.channels.size() <= 16, "channels are few");
+    require(
+        anneal.weights.empty() || anneal.weights.size() == std::max<std::size_t>(1, anneal.channels.size()),
+        "each channel has a weight");
+    require(anneal.residual_sigma_px == 0.0 || set.options.metric == Metric::l2, "residuals are of squares");
+    require(anneal.seconds == 0.0, "a recipe knows no clock");
   }
   const std::string text = recipe_text(recipe);
   require(text == recipe_text(parse_recipe(text, "again", "")), "written out it reads back the same");
