@@ -99,6 +99,7 @@ std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const 
     if (error.code() == ErrorCode::cancelled) checkpoint.save();
     throw;
   }
+  checkpoint.save();  // who is stopped before the results are safe has them here
   progress.finish();
   return results;
 }
