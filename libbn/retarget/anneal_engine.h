@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "retarget/anneal_instance.h"
 
@@ -66,6 +67,9 @@ std::unique_ptr<AnnealEngine> make_engine(const AnnealInstance& instance, std::u
 /// One swap at a time, for any energy: the specification of annealing.
 std::unique_ptr<AnnealEngine> make_scalar_engine(const AnnealInstance& instance, std::uint64_t seed,
                                                  std::uint32_t chain);
+/// By how much swaps raise the energy in the identity: of 16384 pairs within reach, drawn evenly, those that
+/// raise it. Under constant images, and in tiles without pairs, none.
+std::vector<std::int64_t> sample_rises(const AnnealInstance& instance);
 /// All swaps of one displacement at once, for energies that are sums over pixels.
 std::unique_ptr<AnnealEngine> make_sweep_engine(const AnnealInstance& instance, std::uint64_t seed,
                                                 std::uint32_t chain);

@@ -6,33 +6,26 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/reproducible_math.h"
 #include "retarget/anneal_engine.h"
 #include "retarget/refuse.h"
 
 namespace bn {
 namespace {
 
-/// The share of worsening swaps within reach that is accepted at `temperature` in a sweep from the identity.
-double acceptance_at(const AnnealInstance& instance, double temperature) {
-  const auto engine = make_engine(instance, 1, 0);
-  WorseningCounts counts;
-  // Small tiles need more than one sweep for a sample worth its name.
-  const auto sweeps = static_cast<int>(std::clamp<std::int64_t>(8192 / instance.size.area(), 1, 64));
-  engine->round(0, sweeps, temperature, {.threads = 1}, &counts);
-  std::int64_t tried = 0, accepted = 0;
-  for (std::size_t i = 0; i < counts.tried.size(); ++i) {
-    tried += counts.tried[i];
-    accepted += counts.accepted[i];
-  }
-  return tried == 0 ? 1.0 : static_cast<double>(accepted) / static_cast<double>(tried);
-}
-
-/// By bisection of the exponent; square roots and products of IEEE give the same bits everywhere.
+/// By bisection of the exponent; IEEE operations in a written order give the same bits everywhere.
 double temperature_for_acceptance(const AnnealInstance& instance, double wanted) {
+  const std::vector<std::int64_t> rises = sample_rises(instance);
+  if (rises.empty()) return 1.0;  // nothing to accept
+  const auto share_at = [&](double temperature) {
+    double sum = 0.0;
+    for (const std::int64_t rise : rises) sum += reproducible_exp(-static_cast<double>(rise) / temperature);
+    return sum / static_cast<double>(rises.size());
+  };
   double low = 0x1p-10, high = 0x1p62;
   for (int i = 0; i < 24; ++i) {
     const double middle = std::sqrt(low) * std::sqrt(high);
-    (acceptance_at(instance, middle) < wanted ? low : high) = middle;
+    (share_at(middle) < wanted ? low : high) = middle;
   }
   return high;
 }
@@ -64,7 +57,24 @@ double mean_least_cost(const AnnealInstance& instance) {
     }
     sum += least;
   }
-  return std::max(0.5, static_cast<double>(sum) / static_cast<double>(samples));
+  return static_cast<double>(sum) / static_cast<double>(samples);
+}
+
+/// The least cost above 0 of a pixel: of the two nearest levels of a channel. 1 if all are constant.
+std::int64_t finest_cost(const AnnealInstance& instance) {
+  std::int64_t finest = kMaxAnnealEnergy;
+  for (std::size_t c = 0; c < instance.weight.size(); ++c) {
+    const Grid<std::int32_t>& levels = instance.seed_level[c];
+    std::vector<bool> present(static_cast<std::size_t>(*std::max_element(levels.begin(), levels.end())) + 1);
+    for (const std::int32_t level : levels) present[static_cast<std::size_t>(level)] = true;
+    std::int32_t below = 0;  // the least level of each channel
+    for (std::int32_t level = 1; level < static_cast<std::int32_t>(present.size()); ++level) {
+      if (!present[static_cast<std::size_t>(level)]) continue;
+      finest = std::min(finest, instance.weight[c] * level_cost(level, below, instance.options.metric));
+      below = level;
+    }
+  }
+  return finest == kMaxAnnealEnergy ? 1 : finest;
 }
 
 TemperatureRange automatic_range(const AnnealInstance& instance) {
@@ -72,7 +82,7 @@ TemperatureRange automatic_range(const AnnealInstance& instance) {
     const double start = temperature_for_acceptance(instance, 0.2);
     return {start, start / 4000.0};
   }
-  const double scale = mean_least_cost(instance);
+  const double scale = std::max(mean_least_cost(instance), 0.1 * static_cast<double>(finest_cost(instance)));
   return {6.0 * scale, 0.9 * scale};
 }
 

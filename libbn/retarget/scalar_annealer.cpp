@@ -10,6 +10,7 @@
 // and chain, i) under the seed.
 
 #include <bit>
+#include <numeric>
 
 #include "retarget/anneal_engine.h"
 #include "retarget/filtered_energy.h"
@@ -20,6 +21,8 @@ namespace {
 
 /// Stream of random numbers; chains count up from it.
 constexpr std::uint32_t kScalarStream = 0x53000000u;
+/// Of the pairs that rises are sampled from.
+constexpr std::uint32_t kRiseStream = 0x54000000u;
 
 /// The sum over pixels, level by level.
 class PixelSumEnergy {
@@ -239,7 +242,39 @@ class ScalarEngine final : public AnnealEngine {
   std::int64_t energy_ = 0;
 };
 
+template <class Energy>
+std::vector<std::int64_t> rises_of(const AnnealInstance& instance) {
+  std::vector<Shift> within;  // the identity lets seeds move by these
+  for (const Shift s : instance.displacements) {
+    if (within_reach(s, instance.options)) within.push_back(s);
+  }
+  std::vector<std::int64_t> rises;
+  if (within.empty()) return rises;
+  Energy model(instance);
+  std::vector<std::int32_t> origin(static_cast<std::size_t>(instance.size.area()));
+  std::iota(origin.begin(), origin.end(), 0);
+  model.place(origin);
+  constexpr std::uint32_t kPairs = 16384;
+  for (std::uint32_t i = 0; i < kPairs; ++i) {
+    const auto draw = philox({i, 0, kRiseStream, 0}, {0, 0});
+    const std::size_t p = random_below(draw[0], static_cast<std::uint32_t>(origin.size()));
+    const Shift s = within[random_below(draw[1], static_cast<std::uint32_t>(within.size()))];
+    const Shift at = instance.position(p), to{at.x + s.x, at.y + s.y, at.z + s.z};
+    const bool inside = to.x < instance.slice.width && to.y >= 0 && to.y < instance.slice.height &&
+                        to.z >= 0 && to.z < instance.depth;
+    if (!instance.options.wrap && !inside) continue;
+    const std::int64_t change = model.change(p, instance.index(to.x, to.y, to.z));
+    if (change > 0) rises.push_back(change);
+  }
+  return rises;
+}
+
 }  // namespace
+
+std::vector<std::int64_t> sample_rises(const AnnealInstance& instance) {
+  return instance.residual_sigma_px > 0.0 ? rises_of<FilteredEnergy>(instance)
+                                          : rises_of<PixelSumEnergy>(instance);
+}
 
 void WorseningCounts::count(std::int64_t change, bool taken) {
   ++within_reach;

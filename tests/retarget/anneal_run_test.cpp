@@ -237,30 +237,6 @@ TEST(Anneal, BadOptionsAreNamed) {
   EXPECT_NE(message_of(bad, options).find("levels"), std::string::npos);
 }
 
-TEST(Anneal, InitialAcceptanceIsWhatWasWished) {
-  const AnnealProblem problem = small_problem({64, 64});
-  for (const double wished : {0.1, 0.5, 0.9}) {
-    AnnealOptions options;
-    options.proposals = 20'000'000;
-    options.start = {StartTemperature::Rule::acceptance, wished};
-    const double start = anneal_retarget(problem, options).start_temperature;
-    AnnealOptions constant = options;
-    constant.custom = ConstantCooling{start};
-    AnnealTrace trace;
-    anneal_retarget(problem, constant, {}, &trace);
-    std::int64_t tried = 0, accepted = 0;
-    for (std::size_t p = 0; p < trace.size(); ++p) {
-      for (std::size_t i = 0; i < kWorseningClasses; ++i) {
-        tried += trace[p].worsening_tried[i];
-        accepted += trace[p].worsening_accepted[i];
-      }
-    }
-    ASSERT_GT(tried, 100);
-    // The sample is taken before equilibrium, from where worsenings are smaller.
-    EXPECT_NEAR(static_cast<double>(accepted) / static_cast<double>(tried), wished, 0.12) << start;
-  }
-}
-
 TEST(Anneal, TraceIsReadWhileItGrows) {
   const AnnealProblem problem = small_problem();
   AnnealOptions options;

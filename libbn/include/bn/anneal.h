@@ -27,7 +27,7 @@
 namespace bn {
 
 /// Raised whenever the same problem and options would give other bytes than before.
-inline constexpr int kAnnealVersion = 1;
+inline constexpr int kAnnealVersion = 2;
 
 // --- cooling schedules ---------------------------------------------------------------------------
 //
@@ -174,9 +174,10 @@ struct StartTemperature {
   enum class Rule {
     automatic,   ///< from the problem: see automatic_temperatures()
     given,       ///< `value`, above 0
-    acceptance,  ///< such that a share `value`, 0.001..0.999, of the worsening swaps within reach is
-                 ///< accepted from the identity on, by sampling; within a few percent
-    everything,  ///< twice the largest cost: any swap is rather accepted than not. Not for a residual
+    acceptance,  ///< such that a share `value`, 0.001..0.999, of the worsening swaps within reach of the
+                 ///< identity is accepted: the mean of exp(-rise / T) over a sample. 1 where no swap worsens
+    everything,  ///< twice the largest cost, the most a swap can add: accepts each with a chance of at least
+                 ///< 1/e. Not for a residual
   };
   Rule rule = Rule::automatic;
   double value = 0.0;
@@ -353,9 +354,12 @@ std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const 
 /// once found by a clock can be kept. Throws invalid_input for bytes that are no whole checkpoint.
 std::int64_t checkpoint_proposals(std::string_view checkpoint);
 
-/// The temperatures an automatic start and end stand for. For sums over pixels, with c the mean over pixels
-/// of the least cost within reach (at least 1/2): start 6 c, end 0.9 c. For a residual, a start that accepts
-/// a fifth of the worsening swaps, and a 4000th of it as end.
+/// The temperatures an automatic start and end stand for. For sums over pixels: start 6 c, end 0.9 c, with c
+/// the mean over pixels of the least cost within reach, but at least a tenth of the least cost above 0 that
+/// two levels of a channel have. They grow with the unit of the levels: an image of 8 bits has those of the
+/// same image in 16, in its own unit. Where levels are few and c meets its bound the run is nearly greedy,
+/// which is best there: plateaus are crossed for nothing. For a residual: a start that accepts a fifth of the
+/// worsening swaps, and a 4000th of it as end.
 struct TemperatureRange {
   double start = 0.0;
   double end = 0.0;
@@ -426,7 +430,7 @@ std::vector<AnnealThroughput> study_anneal_throughput(const Execution& execution
 
 /// What watching and saving cost, as shares of a run's time.
 struct AnnealCosts {
-  /// Of a trace, read while it grows or not: median over 101 ratios of processor times, each of two runs with
+  /// Of a trace (readers take no lock): median over 101 ratios of processor times, each of two runs with
   /// a trace and two without, of 1e8 proposals.
   double trace = 0.0;
   double trace_low = 0.0, trace_high = 0.0;  ///< 95 % confidence interval of that median
