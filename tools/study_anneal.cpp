@@ -63,7 +63,8 @@ std::map<SummaryKey, Summary> summarise(const AnnealStudy& study, const std::vec
       std::vector<double> values;
       for (const auto* run : runs) values.push_back(static_cast<double>(value(*run)));
       std::sort(values.begin(), values.end());
-      return std::tuple{values.front(), values[values.size() / 2], values.back()};
+      const double median = 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+      return std::tuple{values.front(), median, values.back()};
     };
     const auto [low, median, high] = median_of([](const AnnealStudyRun& r) { return r.energy; });
     const auto seconds = median_of([](const AnnealStudyRun& r) { return r.cpu_seconds; });

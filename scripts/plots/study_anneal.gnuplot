@@ -1,6 +1,12 @@
 # Figures of bn study anneal. Before this stand
 #   schedules: their names, apart by spaces
 #   runs, traces, throughput: 1 where the CSV files of that part stand
+# Shares of the optimum in percent, on an axis that need not reach from decade to decade.
+set ytics ("0.01 or less" 0.01)
+do for [decade=-1:5] {
+  set for [digit in "1 2 5"] ytics add (sprintf("%g", digit*10.0**decade) digit*10.0**decade)
+}
+
 if (runs) {
 # Columns of medians.csv: schedule,radius,proposals,seconds,excess_low,excess_median,excess_high
 # The least of the radii.
@@ -13,12 +19,12 @@ set ylabel "above the optimum, %"
 set logscale xy
 # No logarithm holds the optimum itself.
 shown(excess) = excess > 0.01 ? excess : 0.01
-set ytics add ("0.01 or less" 0.01)
+stats "medians.csv" skip 1 using ($2 == radius ? shown($5) : NaN):(shown($7)) nooutput
+set yrange [STATS_min_x/1.2:STATS_max_y*1.2]
 plot for [i=1:words(schedules)] "medians.csv" skip 1 \
   using 4:(strcol(1) eq word(schedules, i) && $2 == radius ? shown($6) : NaN):(shown($5)):(shown($7)) \
   with yerrorlines ls i title word(schedules, i)
 unset logscale
-set ytics auto
 }
 
 if (traces) {
@@ -26,7 +32,8 @@ if (traces) {
 # first points are the fall from the start, which no axis shows beside the rest.
 trace(i) = "trace_".word(schedules, i).".csv"
 set xlabel "proposals, 10^9"
-set xrange [0:*]
+set xrange [0:*] noextend
+set yrange [*:*] noextend
 set logscale y
 
 set output "run_energy.svg"
@@ -36,6 +43,10 @@ plot for [i=1:words(schedules)] trace(i) skip 3 using ($1/1e9):($6 > 0 ? 100.0*(
   with lines ls i title word(schedules, i)
 
 set output "run_temperature.svg"
+do for [decade=-3:5] {
+  set for [digit in "1 2 5"] ytics add (sprintf("%g", digit*10.0**decade) digit*10.0**decade)
+}
+set yrange [*:*] noextend
 set title "Temperature during a run (greedy: 0)"
 set ylabel "temperature, levels"
 plot for [i=1:words(schedules)] trace(i) skip 3 using ($1/1e9):($3 > 0 ? $3 : NaN) with lines ls i title word(schedules, i)
