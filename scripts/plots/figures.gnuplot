@@ -15,3 +15,8 @@ set grid lt 1 lw 1 lc rgb "#d8d8d8"
 set key outside right top
 set border 3
 set tics nomirror
+# Of logarithmic axes, which need not reach from decade to decade; `set ytics auto` for others.
+set ytics ()
+do for [decade=-4:9] {
+  set for [digit in "1 2 5"] ytics add (sprintf("%g", digit*10.0**decade) digit*10.0**decade)
+}
