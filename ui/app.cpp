@@ -40,6 +40,14 @@ App::App(std::filesystem::path session) : session_(std::move(session)) {
   Settings settings = read_session(session_);
   Parameters loading = Parameters::loading(settings);
   parameters(loading);
+  try {
+    close();
+  } catch (...) {
+    // Better known now than at the end.
+    report_in_flight();
+    session_.clear();
+    say("What is set now will not be kept for the next session.");
+  }
 }
 
 void App::parameters(Parameters& p) {

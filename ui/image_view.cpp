@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <new>
 #include <utility>
 
 #include "bn/spectrum.h"
@@ -41,62 +42,99 @@ void draw_link_controls(ViewLink& link) {
 }
 
 void ImageView::clear() {
-  picture_ = {};
+  picture_ = std::make_shared<const Picture>();
+  preparing_.stop();
   texture_.reset();
+  histogram_.clear();
+  stale_ = false;
 }
 
-void ImageView::set(Picture picture) {
-  const bool same_range =
-      picture.size == picture_.size && picture.low == picture_.low && picture.high == picture_.high;
+void ImageView::set(std::shared_ptr<const Picture> picture) {
+  const bool same_size = picture->size == picture_->size;
+  const bool same_range = same_size && picture->low == picture_->low && picture->high == picture_->high;
+  if (!same_size) clear();
   picture_ = std::move(picture);
   if (!same_range) {
-    low_ = picture_.low;
-    high_ = picture_.high;
+    low_ = picture_->low;
+    high_ = picture_->high;
   }
-  histogram_.clear();
-  stale_ = true;
+  stale_ = !empty();
 }
 
-void ImageView::show_values() {
-  stale_ = false;
-  Extent shown = picture_.size;
-  shown.width = std::min(shown.width, GlTexture::kMaxSide);
-  shown.height = std::min(shown.height, GlTexture::kMaxSide);
+ImageView::Prepared ImageView::prepare(const Picture& picture, float low, float high) {
+  const Extent shown{std::min(picture.size.width, GlTexture::kMaxSide),
+                     std::min(picture.size.height, GlTexture::kMaxSide)};
   std::vector<std::uint32_t> texels(static_cast<std::size_t>(shown.area()));
-  const float scale = high_ > low_ ? 255.0f / (high_ - low_) : 0.0f;
+  const float scale = high > low ? 255.0f / (high - low) : 0.0f;
   const auto level = [&](float value) {
-    return static_cast<std::uint32_t>(std::clamp((value - low_) * scale + 0.5f, 0.0f, 255.0f));
+    return static_cast<std::uint32_t>(std::clamp((value - low) * scale + 0.5f, 0.0f, 255.0f));
   };
-  const int channels = picture_.channels;
+  const int channels = picture.channels;
   for (int y = 0; y < shown.height; ++y) {
     for (int x = 0; x < shown.width; ++x) {
-      const auto from_x = static_cast<std::size_t>(std::int64_t{x} * picture_.size.width / shown.width);
-      const auto from_y = static_cast<std::size_t>(std::int64_t{y} * picture_.size.height / shown.height);
-      const std::size_t from = from_y * static_cast<std::size_t>(picture_.size.width) + from_x;
+      const auto from_x = static_cast<std::size_t>(std::int64_t{x} * picture.size.width / shown.width);
+      const auto from_y = static_cast<std::size_t>(std::int64_t{y} * picture.size.height / shown.height);
+      const std::size_t from = from_y * static_cast<std::size_t>(picture.size.width) + from_x;
       const std::size_t to =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(shown.width) + static_cast<std::size_t>(x);
-      if (!picture_.colours.empty()) {
-        texels[to] = picture_.colours[from];
+      if (!picture.colours.empty()) {
+        texels[to] = picture.colours[from];
         continue;
       }
-      const float* v = &picture_.values[from * static_cast<std::size_t>(channels)];
+      const float* v = &picture.values[from * static_cast<std::size_t>(channels)];
       const std::uint32_t r = level(v[0]);
       texels[to] = channels == 1   ? IM_COL32(r, r, r, 255)
                    : channels == 2 ? IM_COL32(r, level(v[1]), 0, 255)
                                    : IM_COL32(r, level(v[1]), level(v[2]), 255);
     }
   }
-  texture_.upload(shown, texels);
+  Prepared prepared{.levels = with_halvings(shown, std::move(texels)), .histogram = {}};
+  if (!picture.colours.empty()) return prepared;
+  const double top = static_cast<double>(picture.high > picture.low ? picture.high : picture.low + 1.0f);
+  prepared.histogram.resize(kHistogramBars);
+  // Bit by bit, as doubles of all of a large picture would be too much.
+  constexpr std::size_t kBit = 1 << 16;
+  for (std::size_t first = 0; first < picture.values.size(); first += kBit) {
+    const auto begin = picture.values.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::vector<double> values(
+        begin, begin + static_cast<std::ptrdiff_t>(std::min(kBit, picture.values.size() - first)));
+    const auto counts = histogram(values, static_cast<double>(picture.low), top, kHistogramBars);
+    for (std::size_t i = 0; i < counts.size(); ++i) prepared.histogram[i] += counts[i];
+  }
+  return prepared;
+}
+
+void ImageView::prepare_texels() {
+  try {
+    std::optional<Prepared> prepared = preparing_.poll();
+    if (stale_ && !preparing_.running()) {
+      stale_ = failed_ = false;
+      if (picture_->size.area() <= kAtOnce) {
+        prepared = prepare(*picture_, low_, high_);
+      } else {
+        preparing_.start([picture = picture_, low = low_, high = high_](const Execution&) {
+          return prepare(*picture, low, high);
+        });
+      }
+    }
+    if (prepared) {
+      texture_.begin(std::move(prepared->levels));
+      histogram_ = std::move(prepared->histogram);
+    }
+  } catch (const std::bad_alloc&) {
+    failed_ = true;
+  }
+  texture_.advance();
 }
 
 std::string ImageView::describe(int x, int y) const {
-  if (picture_.describe) return picture_.describe(x, y);
+  if (picture_->describe) return picture_->describe(x, y);
   std::string text;
-  const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_.size.width) +
+  const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_->size.width) +
                           static_cast<std::size_t>(x)) *
-                         static_cast<std::size_t>(picture_.channels);
-  for (int c = 0; c < picture_.channels && at < picture_.values.size(); ++c) {
-    text += (c > 0 ? ", " : "") + number(picture_.values[at + static_cast<std::size_t>(c)]);
+                         static_cast<std::size_t>(picture_->channels);
+  for (int c = 0; c < picture_->channels && at < picture_->values.size(); ++c) {
+    text += (c > 0 ? ", " : "") + number(picture_->values[at + static_cast<std::size_t>(c)]);
   }
   return text;
 }
@@ -107,7 +145,8 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
   const ImVec2 area{std::max(size.x, em(4)), std::max(size.y - line, em(4))};
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("picture", area);
-  items::record(name, empty() ? "empty" : fmt::format("{} × {}", picture_.size.width, picture_.size.height));
+  items::record(name,
+                empty() ? "empty" : fmt::format("{} × {}", picture_->size.width, picture_->size.height));
   const bool hovered = ImGui::IsItemHovered(), held = ImGui::IsItemActive();
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const ImVec2 far_corner{corner.x + area.x, corner.y + area.y};
@@ -115,9 +154,9 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
 
   std::string below;
   if (!empty()) {
-    if (stale_) show_values();
+    prepare_texels();
     texture_.set_nearest(link.nearest);
-    const double w = picture_.size.width, h = picture_.size.height;
+    const double w = picture_->size.width, h = picture_->size.height;
     const double tiles = link.tiled ? 3.0 : 1.0;
     const double fit = std::min(area.x / (w * tiles), area.y / (h * tiles));
     const ImGuiIO& io = ImGui::GetIO();
@@ -150,10 +189,12 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
     };
     const double first = link.tiled ? -1.0 : 0.0, last = link.tiled ? 2.0 : 1.0;
     list.PushClipRect(corner, far_corner, true);
-    list.AddImage(texture_.id(), screen(first * w, first * h), screen(last * w, last * h),
-                  {static_cast<float>(first), static_cast<float>(first)},
-                  {static_cast<float>(last), static_cast<float>(last)});
-    if (picture_.overlay && zoom >= kOverlayZoom) {
+    if (!texture_.empty()) {
+      list.AddImage(texture_.id(), screen(first * w, first * h), screen(last * w, last * h),
+                    {static_cast<float>(first), static_cast<float>(first)},
+                    {static_cast<float>(last), static_cast<float>(last)});
+    }
+    if (picture_->overlay && zoom >= kOverlayZoom) {
       const auto [left, top] = texel_at(corner);
       const auto [right, bottom] = texel_at(far_corner);
       const auto limit = [&](double v, double side) {
@@ -161,9 +202,9 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
       };
       for (double y = limit(top, h); y <= limit(bottom, h); ++y) {
         for (double x = limit(left, w); x <= limit(right, w); ++x) {
-          picture_.overlay(list, wrap(static_cast<std::int64_t>(x), picture_.size.width),
-                           wrap(static_cast<std::int64_t>(y), picture_.size.height), screen(x, y),
-                           static_cast<float>(zoom));
+          picture_->overlay(list, wrap(static_cast<std::int64_t>(x), picture_->size.width),
+                            wrap(static_cast<std::int64_t>(y), picture_->size.height), screen(x, y),
+                            static_cast<float>(zoom));
         }
       }
     }
@@ -172,19 +213,21 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
       const bool inside = x >= first * w && x < last * w && y >= first * h && y < last * h;
       link.cursor =
           inside
-              ? std::optional<Offset>({wrap(static_cast<std::int64_t>(std::floor(x)), picture_.size.width),
-                                       wrap(static_cast<std::int64_t>(std::floor(y)), picture_.size.height)})
+              ? std::optional<Offset>({wrap(static_cast<std::int64_t>(std::floor(x)), picture_->size.width),
+                                       wrap(static_cast<std::int64_t>(std::floor(y)), picture_->size.height)})
               : std::nullopt;
     }
     const auto cursor = link.cursor;
-    if (cursor && cursor->x < picture_.size.width && cursor->y < picture_.size.height) {
+    if (cursor && cursor->x < picture_->size.width && cursor->y < picture_->size.height) {
       if (zoom >= 3) {
         list.AddRect(screen(cursor->x, cursor->y), screen(cursor->x + 1, cursor->y + 1), palette().accent, 0,
                      0, 2.0f);
       }
       below = fmt::format("({}, {})  {}", cursor->x, cursor->y, describe(cursor->x, cursor->y));
+    } else if (failed_) {
+      below = "not enough memory to show it";
     } else {
-      below = fmt::format("{} × {}", picture_.size.width, picture_.size.height);
+      below = fmt::format("{} × {}", picture_->size.width, picture_->size.height);
     }
     list.PopClipRect();
   }
@@ -198,23 +241,17 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
 
 void ImageView::draw_range(const char* name, float height) {
   if (!has_range()) return;
-  if (histogram_.empty()) {
-    const std::vector<double> values(picture_.values.begin(), picture_.values.end());
-    const float high = picture_.high > picture_.low ? picture_.high : picture_.low + 1.0f;
-    histogram_ =
-        histogram(values, static_cast<double>(picture_.low), static_cast<double>(high), kHistogramBars);
-  }
   ImGui::PushID(name);
   const float width = std::max(ImGui::GetContentRegionAvail().x, em(1));
   const ImVec2 corner = ImGui::GetCursorScreenPos();
   ImGui::InvisibleButton("range", {width, height});
   items::record(name, fmt::format("{}..{}", number(low_), number(high_)));
-  const float span = picture_.high > picture_.low ? picture_.high - picture_.low : 1.0f;
-  const auto place = [&](float value) { return corner.x + (value - picture_.low) / span * width; };
+  const float span = picture_->high > picture_->low ? picture_->high - picture_->low : 1.0f;
+  const auto place = [&](float value) { return corner.x + (value - picture_->low) / span * width; };
   if (ImGui::IsItemActive()) {
     // The nearer handle follows.
-    const float value = std::clamp(picture_.low + (ImGui::GetIO().MousePos.x - corner.x) / width * span,
-                                   picture_.low, picture_.high);
+    const float value = std::clamp(picture_->low + (ImGui::GetIO().MousePos.x - corner.x) / width * span,
+                                   picture_->low, picture_->high);
     float& handle = std::abs(value - low_) < std::abs(value - high_) ? low_ : high_;
     if (handle != value) {
       handle = value;
@@ -222,14 +259,14 @@ void ImageView::draw_range(const char* name, float height) {
     }
   }
   if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(0)) {
-    low_ = picture_.low;
-    high_ = picture_.high;
+    low_ = picture_->low;
+    high_ = picture_->high;
     stale_ = true;
   }
   tooltip("What is shown as black and as white: drag the handles; a double click shows everything.");
   ImDrawList& list = *ImGui::GetWindowDrawList();
   list.AddRectFilled(corner, {corner.x + width, corner.y + height}, palette().background);
-  const auto most = *std::max_element(histogram_.begin(), histogram_.end());
+  const auto most = histogram_.empty() ? 0 : *std::max_element(histogram_.begin(), histogram_.end());
   for (int i = 0; i < kHistogramBars && most > 0; ++i) {
     const float share =
         static_cast<float>(histogram_[static_cast<std::size_t>(i)]) / static_cast<float>(most);

@@ -6,12 +6,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bn/core.h"
 #include "ui/gl_texture.h"
+#include "ui/task.h"
 
 namespace bn::ui {
 
@@ -31,6 +34,10 @@ struct Picture {
   /// What to say of a pixel; empty: its values.
   std::function<std::string(int x, int y)> describe = {};
 };
+
+/// Pixels that are worked on within a frame, in a millisecond or two; what has more goes off the window's
+/// thread.
+inline constexpr std::int64_t kAtOnce = 512 * 512;
 
 /// Zoom, pan and manner, shared by all views that are linked.
 struct ViewLink {
@@ -52,12 +59,16 @@ void draw_link_controls(ViewLink& link);
 class ImageView {
  public:
   /// Takes the picture. Same size as before: zoom and range stay. Cheap enough to call for every frame of a
-  /// 64² run; a picture whose sides pass GlTexture::kMaxSide is thinned out on the screen.
-  void set(Picture picture);
+  /// 64² run; a large picture's texels are made off the window's thread and brought to the card piece by
+  /// piece, the one before stays meanwhile. Sides beyond GlTexture::kMaxSide are thinned out on the screen.
+  void set(std::shared_ptr<const Picture> picture);
+  void set(Picture picture) { set(std::make_shared<const Picture>(std::move(picture))); }
   void clear();
-  bool empty() const { return picture_.size.area() == 0; }
-  bool has_range() const { return !empty() && picture_.colours.empty() && !picture_.values.empty(); }
-  const Picture& picture() const { return picture_; }
+  bool empty() const { return picture_->size.area() == 0; }
+  /// Texels are on their way, so that it must be drawn again without input.
+  bool busy() const { return !empty() && (stale_ || preparing_.running() || texture_.pending()); }
+  bool has_range() const { return !empty() && picture_->colours.empty() && !picture_->values.empty(); }
+  const std::shared_ptr<const Picture>& picture() const { return picture_; }
 
   /// The picture with its title above and a line of values below; `name` is its item name for scripts. Drag
   /// pans, the wheel zooms about the cursor, a double click fits.
@@ -67,14 +78,22 @@ class ImageView {
   void draw_range(const char* name, float height);
 
  private:
-  void show_values();
+  /// What is made from a picture and a range.
+  struct Prepared {
+    MipLevels levels;
+    std::vector<std::int64_t> histogram;
+  };
+  static Prepared prepare(const Picture& picture, float low, float high);
+  void prepare_texels();
   std::string describe(int x, int y) const;
 
-  Picture picture_;
+  std::shared_ptr<const Picture> picture_ = std::make_shared<const Picture>();
   GlTexture texture_;
   float low_ = 0.0f, high_ = 255.0f;
-  bool stale_ = false;  ///< texture_ must be made again
+  bool stale_ = false;   ///< texture_ must be made again
+  bool failed_ = false;  ///< there was no memory for it
   std::vector<std::int64_t> histogram_;
+  Task<Prepared> preparing_;
 };
 
 }  // namespace bn::ui

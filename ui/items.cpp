@@ -1,5 +1,7 @@
 #include "ui/items.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 
 namespace bn::ui::items {
@@ -31,7 +33,8 @@ void record(std::string_view label, std::string_view text, ImVec2 min, ImVec2 ma
   item.visible = item.min.x < item.max.x && item.min.y < item.max.y;
   item.whole = item.visible && item.max.y - item.min.y >= 0.9f * (max.y - min.y);
   if (!wanted.empty() && wanted == item.name) {
-    if (!item.whole) ImGui::SetScrollHereY();
+    // The windows around its own scroll too.
+    if (!item.whole) ImGui::ScrollToBringRectIntoView(ImGui::GetCurrentWindow(), {min, max});
     wanted.clear();
   }
   recording.push_back(std::move(item));

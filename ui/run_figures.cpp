@@ -131,8 +131,9 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
         curve_of(run, over, alone ? "of all" : run.entry->name(),
                  [](const TracePoint& p) { return p.proposals == 0 ? kNothing : p.accepted_share; }));
     if (!alone) continue;
-    // Only watched sweeps tell, and one tells little: a point is a stretch of the run.
-    constexpr double kMostPoints = 64, kFewestPoints = 12;
+    // Only watched sweeps tell, and one tells little: a point is a stretch of the run in which a few were
+    // accepted.
+    constexpr double kMostPoints = 64;
     constexpr std::int64_t kFew = 4;
     Curve worse;
     worse.name = "of worsening";
@@ -144,11 +145,9 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
       tried += sum(p.worsening_tried);
       accepted += sum(p.worsening_accepted);
       const auto at = static_cast<double>(p.proposals);
-      const bool told = accepted >= kFew && at - last >= budget / kMostPoints;
-      if (tried == 0 || (!told && at - last < budget / kFewestPoints)) continue;
+      if (accepted < kFew || at - last < budget / kMostPoints) continue;
       worse.x.push_back(0.5 * (at + last));
-      worse.y.push_back(accepted == 0 ? kNothing
-                                      : static_cast<double>(accepted) / static_cast<double>(tried));
+      worse.y.push_back(static_cast<double>(accepted) / static_cast<double>(tried));
       tried = accepted = 0;
       last = at;
     }
@@ -158,15 +157,23 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
 }
 
 Figure surface_figure(const RunEntry& entry) {
-  constexpr int kStretches = 32;
+  constexpr int kMostStretches = 32, kFewestStretches = 8;
   constexpr std::int64_t kFewest = 8;  // tried, to say a share
   Figure result = figure("Accepted share of worsening swaps, by the rise of energy", "rise", false);
   const double budget = static_cast<double>(entry.run->setup().options.proposals);
-  std::array<std::array<std::int64_t, kWorseningClasses>, kStretches> tried{}, accepted{};
+  std::array<std::array<std::int64_t, kWorseningClasses>, kMostStretches> tried{}, accepted{};
   std::array<std::int64_t, kWorseningClasses> total{};
-  for (const TracePoint& p : points_of(entry)) {
+  const auto points = points_of(entry);
+  // A run that is short, or begins, has few watched sweeps: some for each stretch.
+  const auto watched = std::count_if(points.begin(), points.end(),
+                                     [](const TracePoint& p) { return sum(p.worsening_tried) > 0; });
+  const double made = points.empty() ? 0.0 : static_cast<double>(points.back().proposals) / budget;
+  const int stretches =
+      std::clamp(made > 0.0 ? static_cast<int>(static_cast<double>(watched) / made / 4.0) : 0,
+                 kFewestStretches, kMostStretches);
+  for (const TracePoint& p : points) {
     const auto stretch = static_cast<std::size_t>(
-        std::min(kStretches - 1, static_cast<int>(static_cast<double>(p.proposals) / budget * kStretches)));
+        std::min(stretches - 1, static_cast<int>(static_cast<double>(p.proposals) / budget * stretches)));
     for (std::size_t i = 0; i < kWorseningClasses; ++i) {
       tried[stretch][i] += p.worsening_tried[i];
       accepted[stretch][i] += p.worsening_accepted[i];
@@ -177,14 +184,14 @@ Figure surface_figure(const RunEntry& entry) {
   while (first < last && total[first] < kFewest) ++first;
   while (last > first && total[last - 1] < kFewest) --last;
   HeatMap heat;
-  heat.columns = kStretches;
+  heat.columns = stretches;
   heat.x = {0.0, budget};
   heat.colours = {1e-3, 1.0};
   heat.logarithmic = true;
   std::vector<std::string> words;
   for (std::size_t i = first; i < last; ++i) {
     heat.rows.push_back(short_number(static_cast<double>(std::int64_t{1} << i)));
-    for (std::size_t s = 0; s < kStretches; ++s) {
+    for (std::size_t s = 0; s < static_cast<std::size_t>(stretches); ++s) {
       const bool known = tried[s][i] >= kFewest;
       heat.values.push_back(known ? static_cast<double>(accepted[s][i]) / static_cast<double>(tried[s][i])
                                   : kNothing);
@@ -192,10 +199,10 @@ Figure surface_figure(const RunEntry& entry) {
                             : fmt::format("{} tried: too few to say", tried[s][i]));
     }
   }
-  heat.describe = [words, first](int column, int row) {
+  heat.describe = [words, first, stretches](int column, int row) {
     const std::int64_t from = std::int64_t{1} << (first + static_cast<std::size_t>(row));
     return fmt::format("rise {}..{}\n{}", from, 2 * from - 1,
-                       words[static_cast<std::size_t>(row * kStretches + column)]);
+                       words[static_cast<std::size_t>(row * stretches + column)]);
   };
   if (!heat.rows.empty()) result.heat = std::move(heat);
   return result;

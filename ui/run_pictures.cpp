@@ -115,60 +115,98 @@ void RunPictures::parameters(Parameters& p) {
   p("run.spectrum_of", spectrum_of_, 0, 2);
 }
 
-void RunPictures::show(std::shared_ptr<const Source> source, const AnnealProblem& problem,
-                       std::shared_ptr<const Placement> placement) {
-  const RetargetOptions& o = problem.retarget;
-  const bool same_image = source == source_ && o.step == options_.step && o.motion == options_.motion;
-  if (same_image && placement == placement_ && o.radius == options_.radius && o.reach == options_.reach)
-    return;
-  source_ = std::move(source);
-  placement_ = std::move(placement);
-  options_ = o;
-  if (!source_) {
-    for (ImageView* view : {&permuted_, &target_, &difference_, &offsets_, &spectrum_}) view->clear();
-    curve_.reset();
-    return;
-  }
-  const Grid<std::int32_t>& levels = source_->levels.value;
+RunPictures::Made RunPictures::make(const Subject& subject, std::shared_ptr<const Picture> target) {
+  const RetargetOptions& options = subject.options;
+  const Grid<std::int32_t>& levels = subject.source->levels.value;
   // Before a run nothing but the motion has moved.
-  const Grid<Offset> still = placement_ ? Grid<Offset>() : Grid<Offset>(levels.size(), o.motion);
-  const Grid<Offset>& move = placement_ ? placement_->move : still;
-  permuted_.set(permuted_picture(levels, move));
-  if (!same_image || target_.empty()) target_.set(target_picture(levels, o.step));
-  difference_.set(difference_picture(levels, move, o.step));
-  offsets_.set(offset_picture(move, o));
+  const Grid<Offset> still = subject.placement ? Grid<Offset>() : Grid<Offset>(levels.size(), options.motion);
+  const Grid<Offset>& move = subject.placement ? subject.placement->move : still;
+  const auto shared = [](Picture picture) { return std::make_shared<const Picture>(std::move(picture)); };
+  if (!target) target = shared(target_picture(levels, options.step));
+  return {.of = subject,
+          .permuted = shared(permuted_picture(levels, move)),
+          .target = std::move(target),
+          .difference = shared(difference_picture(levels, move, options.step)),
+          .offsets = shared(offset_picture(move, options))};
+}
+
+void RunPictures::clear() {
+  for (ImageView* view : {&permuted_, &target_, &difference_, &offsets_, &spectrum_}) view->clear();
+  curve_.reset();
+  make_.stop();
+  transform_.stop();
+  spectrum_stale_ = false;
+  shown_ = making_ = {};
+}
+
+bool RunPictures::busy() const {
+  const ImageView* const views[] = {&permuted_, &target_, &difference_, &offsets_, &spectrum_};
+  return transform_.running() || make_.running() ||
+         std::any_of(std::begin(views), std::end(views), [](const ImageView* view) { return view->busy(); });
+}
+
+void RunPictures::show(std::shared_ptr<const Source> source, const RetargetOptions& options,
+                       std::shared_ptr<const Placement> placement) {
+  wanted_ = {std::move(source), std::move(placement), options};
+  // Another image's pictures would stand beside this one's figures.
+  if (wanted_.source != shown_.source && wanted_.source != making_.source) clear();
+  take_pictures();
+  take_spectrum();
+}
+
+/// What is wanted, made at once where that is quick; else off the window's thread, one after the other, so
+/// that a run that goes on is seen going on.
+void RunPictures::take_pictures() {
+  std::optional<Made> made = make_.poll();
+  if (wanted_.source && !make_.running() && !wanted_.same(making_)) {
+    const bool has_target = made ? made->of.same_image(wanted_) : shown_.source && shown_.same_image(wanted_);
+    auto target = !has_target ? nullptr : made ? made->target : target_.picture();
+    making_ = wanted_;
+    if (wanted_.source->levels.value.size().area() <= kAtOnce) {
+      made = make(wanted_, std::move(target));
+    } else {
+      make_.start([subject = wanted_, target = std::move(target)](const Execution&) {
+        return make(subject, target);
+      });
+    }
+  }
+  if (!made) return;
+  if (target_.picture() != made->target) target_.set(made->target);
+  permuted_.set(std::move(made->permuted));
+  difference_.set(std::move(made->difference));
+  offsets_.set(std::move(made->offsets));
+  shown_ = std::move(made->of);
   spectrum_stale_ = true;
 }
 
 void RunPictures::take_spectrum() {
   if (auto transformed = transform_.poll()) {
-    const Grid<std::uint8_t>& power = transformed->picture;
-    Picture picture;
-    picture.size = power.size();
-    picture.values.assign(power.begin(), power.end());
-    picture.describe = [size = power.size()](int x, int y) {
-      return fmt::format("f = ({:.3f}, {:.3f}) cycles/pixel",
-                         static_cast<double>(x - size.width / 2) / size.width,
-                         static_cast<double>(y - size.height / 2) / size.height);
-    };
-    spectrum_.set(std::move(picture));
+    spectrum_.set(std::move(transformed->picture));
     curve_ = std::move(transformed->curve);
   }
-  if (!spectrum_stale_ || transform_.running() || !source_) return;
+  if (!spectrum_stale_ || transform_.running() || !shown_.source) return;
   spectrum_stale_ = false;
   const ImageView& from = spectrum_of_ == 0 ? permuted_ : spectrum_of_ == 1 ? target_ : difference_;
-  const Picture& shown = from.picture();
   transform_.start(
-      [values = std::vector<double>(shown.values.begin(), shown.values.end()),
-       size = shown.size](const Execution& execution) {
-        const PowerSpectrum power = power_spectrum(values, {size.width, size.height, 1}, execution);
-        return Transformed{log_picture(power), radial_power(power)};
+      [shown = from.picture()](const Execution& execution) {
+        const std::vector<double> values(shown->values.begin(), shown->values.end());
+        const PowerSpectrum power =
+            power_spectrum(values, {shown->size.width, shown->size.height, 1}, execution);
+        const Grid<std::uint8_t> grey = log_picture(power);
+        Picture picture;
+        picture.size = grey.size();
+        picture.values.assign(grey.begin(), grey.end());
+        picture.describe = [size = grey.size()](int x, int y) {
+          return fmt::format("f = ({:.3f}, {:.3f}) cycles/pixel",
+                             static_cast<double>(x - size.width / 2) / size.width,
+                             static_cast<double>(y - size.height / 2) / size.height);
+        };
+        return Transformed{std::move(picture), radial_power(power)};
       },
       1);
 }
 
 void RunPictures::draw(ImVec2 size, bool ranges) {
-  take_spectrum();
   constexpr int kPictures = 5;
   const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
   const float before = ImGui::GetCursorPosY();

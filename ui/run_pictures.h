@@ -27,27 +27,48 @@ Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options)
 
 class RunPictures {
  public:
-  /// Takes what is to be shown; nothing happens where it is shown already. `placement` may be null: the image
-  /// itself is all there is.
-  void show(std::shared_ptr<const Source> source, const AnnealProblem& problem,
+  /// Takes what is to be shown, each frame; nothing happens where it is shown already. `placement` may be
+  /// null: the image itself is all there is. Errors: over_limit, bad_alloc.
+  void show(std::shared_ptr<const Source> source, const RetargetOptions& options,
             std::shared_ptr<const Placement> placement);
   /// Five pictures, `size` in all; with `ranges` each has the control of its range below.
   void draw(ImVec2 size, bool ranges);
   Figure spectrum_figure() const;  ///< power by frequency
-  bool busy() const { return transform_.running(); }
+  bool busy() const;
   void parameters(Parameters& p);
   ViewLink& link() { return link_; }
 
  private:
+  /// What is shown, as one: the options are of the pictures.
+  struct Subject {
+    std::shared_ptr<const Source> source;
+    std::shared_ptr<const Placement> placement;
+    RetargetOptions options;
+    bool same_image(const Subject& other) const {
+      return source == other.source && options.step == other.options.step &&
+             options.motion == other.options.motion;
+    }
+    bool same(const Subject& other) const {
+      return same_image(other) && placement == other.placement && options.radius == other.options.radius &&
+             options.reach == other.options.reach;
+    }
+  };
+  struct Made {
+    Subject of;
+    std::shared_ptr<const Picture> permuted, target, difference, offsets;
+  };
+  /// `target`: of the same image, if it has been made before.
+  static Made make(const Subject& subject, std::shared_ptr<const Picture> target);
   struct Transformed {
-    Grid<std::uint8_t> picture;
+    Picture picture;
     RadialCurve curve;
   };
+  void clear();
+  void take_pictures();
   void take_spectrum();
 
-  std::shared_ptr<const Source> source_;
-  std::shared_ptr<const Placement> placement_;
-  RetargetOptions options_;
+  Subject wanted_, making_, shown_;
+  Task<Made> make_;
   ImageView permuted_, target_, difference_, offsets_, spectrum_;
   ViewLink link_, spectrum_link_;
   int spectrum_of_ = 0;  ///< 0 permuted, 1 target, 2 difference

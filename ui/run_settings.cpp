@@ -88,15 +88,21 @@ SourceChoice RunSettings::source() const {
   return choice;
 }
 
+RetargetOptions RunSettings::retarget(const Source& source) const {
+  RetargetOptions options;
+  options.step = auto_step ? bn::auto_step(source.levels.value.size()).step : Offset{step_x, step_y};
+  options.motion = {motion_x, motion_y};
+  options.radius = radius;
+  options.reach = static_cast<Reach>(reach);
+  options.metric = metric == 0 ? Metric::l1 : Metric::l2;
+  options.wrap = wraps;
+  return options;
+}
+
 AnnealProblem RunSettings::problem(const Source& source) const {
   AnnealProblem problem;
   problem.channels = {{source.levels.value}};
-  problem.retarget.step = auto_step ? bn::auto_step(source.levels.value.size()).step : Offset{step_x, step_y};
-  problem.retarget.motion = {motion_x, motion_y};
-  problem.retarget.radius = radius;
-  problem.retarget.reach = static_cast<Reach>(reach);
-  problem.retarget.metric = metric == 0 ? Metric::l1 : Metric::l2;
-  problem.retarget.wrap = wraps;
+  problem.retarget = retarget(source);
   if (metric == 2) problem.residual_sigma_px = residual_sigma_px;
   return problem;
 }

@@ -47,7 +47,8 @@ struct RunSettings {
   void parameters(Parameters& p);
 
   SourceChoice source() const;
-  AnnealProblem problem(const Source& source) const;
+  RetargetOptions retarget(const Source& source) const;
+  AnnealProblem problem(const Source& source) const;  ///< a copy of the levels: not for every frame
   AnnealOptions options() const;
   std::string schedule_name() const;
   /// "exponential, 1e9 proposals, seed 1".

@@ -93,10 +93,14 @@ void RunView::draw(App& app) {
 
   const Run* run = entry_ ? entry_->run.get() : nullptr;
   // What is shown is of the run, until the settings ask for another image.
-  if (run != nullptr && entry_->source == source_) {
-    pictures_.show(entry_->source, run->setup().problem, entry_->run->placement());
-  } else if (source_) {
-    pictures_.show(source_, settings_.problem(*source_), nullptr);
+  try {
+    if (run != nullptr && entry_->source == source_) {
+      pictures_.show(entry_->source, run->setup().problem.retarget, entry_->run->placement());
+    } else if (source_) {
+      pictures_.show(source_, settings_.retarget(*source_), nullptr);
+    }
+  } catch (...) {
+    app.report_in_flight();
   }
   const ImVec2 room = ImGui::GetContentRegionAvail();
   // In a narrow window the panels are as high as they need, and all of it scrolls.
@@ -229,22 +233,28 @@ void RunView::draw_standing() {
       {"Time", any ? time_text(state.seconds) : "–"},
       {"Left", standing.seconds_left ? time_text(*standing.seconds_left) : "–"}};
   constexpr float kWidths[] = {5.5f, 9.5f, 5.5f, 5.0f, 6.5f, 5.5f, 6.0f, 5.0f, 5.0f};
-  // Where each cell stands, so that the panel is as high as they need.
+  constexpr std::size_t kCells = std::size(kWidths);
+  // As many columns as there is room for, each as wide as its widest cell.
   const ImGuiStyle& style = ImGui::GetStyle();
   const float room = ImGui::GetContentRegionAvail().x - 2 * style.WindowPadding.x;
-  std::array<float, std::size(kWidths)> places{};
-  float x = 0.0f;
-  int rows = 1;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (x > 0.0f && x + em(kWidths[i] - 1.0f) > room) x = 0.0f, ++rows;
-    places[i] = x;
-    x += em(kWidths[i]);
+  std::array<float, kCells> places{};
+  std::size_t columns = kCells + 1;
+  for (float whole = room + 1.0f; whole > room && columns > 1;) {
+    --columns;
+    whole = 0.0f;
+    for (std::size_t column = 0; column < columns; ++column) {
+      places[column] = whole;
+      float widest = 0.0f;
+      for (std::size_t i = column; i < kCells; i += columns) widest = std::max(widest, em(kWidths[i]));
+      whole += widest;
+    }
+    whole -= em(1.0f);  // the room right of the last one
   }
+  const auto rows = static_cast<float>((kCells + columns - 1) / columns);
   const float cell = 2 * ImGui::GetTextLineHeightWithSpacing();
-  begin_panel("standing",
-              {0, static_cast<float>(rows) * cell + ImGui::GetFrameHeight() + 2 * style.WindowPadding.y});
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (places[i] > 0.0f) ImGui::SameLine(style.WindowPadding.x + places[i]);
+  begin_panel("standing", {0, rows * cell + ImGui::GetFrameHeight() + 2 * style.WindowPadding.y});
+  for (std::size_t i = 0; i < kCells; ++i) {
+    if (i % columns != 0) ImGui::SameLine(style.WindowPadding.x + places[i % columns]);
     figure_cell(cells[i].first, cells[i].second);
   }
   progress_bar("Progress", std::min(1.0, static_cast<double>(state.proposals) / budget),

@@ -48,9 +48,11 @@ void RunView::make_plan(App& app) {
     for (const auto& [name, text] : all) now += name + '=' + text + '\n';
     if (now != planned_) {
       planned_ = now;
-      planning_.start([problem = settings_.problem(*source_), options = settings_.options()](
-                          const Execution& execution) { return plan_of(problem, options, execution); },
-                      1);
+      planning_.start(
+          [source = source_, settings = settings_](const Execution& execution) {
+            return plan_of(settings.problem(*source), settings.options(), execution);
+          },
+          1);
     }
   }
   try {

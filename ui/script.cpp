@@ -177,8 +177,8 @@ bool Script::before_frame(App& app) {
       return frame_seconds_[static_cast<std::size_t>(share * static_cast<double>(frame_seconds_.size() - 1))];
     };
     if (!frame_seconds_.empty()) {
-      fmt::print("{} frames, median {:.2f} ms ({:.1f} a second), 99 % within {:.2f} ms\n",
-                 frame_seconds_.size(), 1e3 * at(0.5), 1.0 / at(0.5), 1e3 * at(0.99));
+      fmt::print("{} frames, median {:.2f} ms ({:.1f} a second), 99 % within {:.2f} ms, worst {:.2f} ms\n",
+                 frame_seconds_.size(), 1e3 * at(0.5), 1.0 / at(0.5), 1e3 * at(0.99), 1e3 * at(1.0));
       std::fflush(stdout);
     }
   }

@@ -48,6 +48,20 @@ std::string shape_text(const Image& image) {
                      name_of(image.type));
 }
 
+/// Power in decibels as grey, DC in the middle.
+std::shared_ptr<const Picture> spectrum_picture(PowerSpectrum power) {
+  const Grid<std::uint8_t> grey = log_picture(power);
+  Picture picture{.size = grey.size(), .channels = 1, .values = {}, .low = 0.0f, .high = 255.0f};
+  picture.values.assign(grey.begin(), grey.end());
+  picture.describe = [power = std::move(power)](int x, int y) {
+    const auto [width, height, depth] = power.shape;
+    const int kx = x - width / 2, ky = y - height / 2;
+    return fmt::format("f = ({:.3f}, {:.3f}), power {:.3g}", kx / static_cast<double>(width),
+                       ky / static_cast<double>(height), power.at(kx, ky));
+  };
+  return std::make_shared<const Picture>(std::move(picture));
+}
+
 std::optional<AnnealOptions> annealing_of(const Metadata& metadata) {
   if (metadata.algorithm != "retarget-anneal") return {};
   try {
@@ -206,15 +220,18 @@ TextureAnalysis analyse_texture(const TextureFile& texture, const AtlasCut& cut,
                    samples_of_channel(slice(texture, cut, index < 0 ? z : index), std::max(channel, 0)));
   }
   const Shape shape{size.width, size.height, depth};
-  const Analysis analysis = analyse(stack.value, shape, stack.low, stack.high, execution);
+  Analysis analysis = analyse(stack.value, shape, stack.low, stack.high, execution);
+  stack = {};  // a large one is no longer needed
   TextureAnalysis result{
-      .plane = analysis.power, .in_time = {}, .radial = {}, .time = {}, .figures = analysis.figures};
+      .plane_picture = {}, .in_time_picture = {}, .radial = {}, .time = {}, .figures = analysis.figures};
+  throw_if_stopped(execution);
   if (depth > 1) {
-    result.plane = project(analysis.power, Projection::xy);
-    result.in_time = project(analysis.power, Projection::xz);
+    result.in_time_picture = spectrum_picture(project(analysis.power, Projection::xz));
     result.time = radial_power(project(analysis.power, Projection::z));
+    analysis.power = project(analysis.power, Projection::xy);
   }
-  result.radial = radial_power(result.plane);
+  result.radial = radial_power(analysis.power);
+  result.plane_picture = spectrum_picture(std::move(analysis.power));
   return result;
 }
 

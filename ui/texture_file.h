@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -66,10 +67,10 @@ Picture picture_of(const TextureFile& texture, const Section& section);
 
 /// What is in one channel of the whole stack, or of one slice: spectrum and figures.
 struct TextureAnalysis {
-  PowerSpectrum plane;    ///< of the slices, (kx, ky)
-  PowerSpectrum in_time;  ///< (kx, kz); empty where there is one slice
-  RadialCurve radial;     ///< of `plane`
-  RadialCurve time;       ///< by frequency in time; empty where there is one slice
+  std::shared_ptr<const Picture> plane_picture;    ///< power in decibels: of the slices, (kx, ky)
+  std::shared_ptr<const Picture> in_time_picture;  ///< (kx, kz); null where there is one slice
+  RadialCurve radial;                              ///< of the slices
+  RadialCurve time;                                ///< by frequency in time; empty where there is one slice
   FiguresOfMerit figures;
 };
 /// `index` < 0: the stack as a volume. Errors: as analyse().

@@ -24,20 +24,6 @@ std::vector<const char*> channel_words(int channels) {
   return words;
 }
 
-/// Power in decibels as grey, DC in the middle.
-Picture spectrum_picture(const PowerSpectrum& power) {
-  const Grid<double> values = centred_power(power);
-  const Grid<std::uint8_t> grey = log_picture(power);
-  Picture picture{.size = grey.size(), .channels = 1, .values = {}, .low = 0.0f, .high = 255.0f};
-  picture.values.assign(grey.begin(), grey.end());
-  picture.describe = [values](int x, int y) {
-    const double fx = (x - values.width() / 2) / static_cast<double>(values.width());
-    const double fy = (y - values.height() / 2) / static_cast<double>(values.height());
-    return fmt::format("f = ({:.3f}, {:.3f}), power {:.3g}", fx, fy, values(x, y));
-  };
-  return picture;
-}
-
 }  // namespace
 
 void TextureView::open(const std::filesystem::path& path) {
@@ -70,6 +56,7 @@ void TextureView::take(std::shared_ptr<const TextureFile> texture) {
   }
   if (!fits(*texture_, section_.cut)) section_.cut = guess_cut(*texture_);
   stale_ = true;
+  cutting_.stop();
   playing_ = false;
   analysed_ = {};
   analysis_.reset();
@@ -82,8 +69,27 @@ void TextureView::take(std::shared_ptr<const TextureFile> texture) {
 }
 
 void TextureView::take_spectrum() {
-  const bool in_time = section_.xz && !analysis_->in_time.half.empty();
-  spectrum_.set(spectrum_picture(in_time ? analysis_->in_time : analysis_->plane));
+  const bool in_time = section_.xz && analysis_->in_time_picture;
+  spectrum_.set(in_time ? analysis_->in_time_picture : analysis_->plane_picture);
+}
+
+/// The picture of the section that is wanted now, or, while that is being cut out, of the last one.
+void TextureView::update_picture() {
+  if (auto picture = cutting_.poll()) picture_.set(std::move(*picture));
+  if ((!stale_ && section_ == shown_) || cutting_.running()) return;
+  if (shown_.xz != section_.xz && analysis_) take_spectrum();
+  const int slices_read = section_.xz ? slice_count(*texture_, section_.cut) : 1;
+  if (slice_size(*texture_, section_.cut).area() * slices_read <= kAtOnce) {
+    picture_.set(picture_of(*texture_, section_));
+  } else {
+    // Not what was there: another texture's picture would stand beside this one's figures.
+    if (stale_) picture_.clear();
+    cutting_.start([texture = texture_, section = section_](const Execution&) {
+      return std::make_shared<const Picture>(picture_of(*texture, section));
+    });
+  }
+  shown_ = section_;
+  stale_ = false;
 }
 
 void TextureView::update(App& app) {
@@ -132,11 +138,10 @@ void TextureView::update(App& app) {
   row_ = std::clamp(row_, 0, slice_size(*texture_, section_.cut).height - 1);
   section_.channel = std::min(section_.channel, texture_->images[0].channels - 1);
   section_.index = section_.xz ? row_ : slice_;
-  if (stale_ || !(section_ == shown_)) {
-    if (shown_.xz != section_.xz && analysis_) take_spectrum();
-    picture_.set(picture_of(*texture_, section_));
-    shown_ = section_;
-    stale_ = false;
+  try {
+    update_picture();
+  } catch (...) {
+    app.report_in_flight();
   }
   update_analysis();
 }

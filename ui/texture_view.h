@@ -25,11 +25,15 @@ class TextureView {
   void draw(App& app);
   void parameters(Parameters& p);
   bool playing() const { return playing_; }
-  bool busy() const { return playing_ || loading_.running() || analysing_.running() || verifying_.running(); }
+  bool busy() const {
+    return playing_ || loading_.running() || cutting_.running() || analysing_.running() ||
+           verifying_.running() || picture_.busy() || spectrum_.busy();
+  }
 
  private:
   /// Takes up results of the tasks; starts what the settings ask for.
   void update(App& app);
+  void update_picture();
   void update_analysis();
   void take_spectrum();
   void take(std::shared_ptr<const TextureFile> texture);
@@ -55,7 +59,7 @@ class TextureView {
   std::shared_ptr<const TextureFile> texture_;
   std::filesystem::path opened_;  ///< the path that was last tried
   bool fresh_ = false;            ///< opened by the user: its settings begin anew, not a session's
-  Section shown_;
+  Section shown_;                 ///< that picture_ is of, or soon will be
   bool stale_ = true;
   bool playing_ = false;
   double since_slice_s_ = 0.0;
@@ -74,6 +78,7 @@ class TextureView {
   Plot plot_;
   PlotLink plot_link_;
   Task<std::shared_ptr<const TextureFile>> loading_;
+  Task<std::shared_ptr<const Picture>> cutting_;
   Task<TextureAnalysis> analysing_;
   Task<std::vector<VerifyItem>> verifying_;
 };

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/flow.h"
 #include "ui/parameters.h"
 
 namespace bn::ui {
@@ -95,8 +96,12 @@ bool choice(const char* label, std::span<const char* const> words, int& index, s
   begin_row(label);
   bool changed = false;
   const std::string name(label, end_of(label));
+  const float left = ImGui::GetCursorPosX();
   for (int i = 0; i < static_cast<int>(words.size()); ++i) {
-    if (i > 0) ImGui::SameLine(0, 1);
+    if (i > 0) {
+      flow(button_width(words[i]), 1);
+      ImGui::SetCursorPosX(std::max(left, ImGui::GetCursorPosX()));  // of a new line: below the first word
+    }
     const bool chosen = i == index;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
     if (!chosen) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);

@@ -1,6 +1,7 @@
 #include "ui/inspector.h"
 
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -38,6 +39,15 @@ Outcome Workplace::script(const std::string& text, const std::string& arguments,
                           const std::string& environment) const {
   std::ofstream(folder_ / "test.script") << text;
   return shell(environment + " " BN_INSPECTOR " --headless --script test.script " + arguments);
+}
+
+std::string Workplace::as_stranger() const {
+  namespace fs = std::filesystem;
+  fs::permissions(folder_, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
+                               fs::perms::others_read | fs::perms::others_exec);
+  // Root may write anywhere; others not into what is read-only.
+  return geteuid() == 0 ? "HOME=/nonexistent setpriv --reuid=65534 --regid=65534 --clear-groups"
+                        : "HOME=/nonexistent";
 }
 
 void Workplace::write_mask(const std::string& name, int side, std::uint64_t seed) const {

@@ -29,6 +29,8 @@ class Workplace {
   /// bn-inspector with this script. `arguments` come before, `environment` before the program.
   Outcome script(const std::string& text, const std::string& arguments = "",
                  const std::string& environment = "") const;
+  /// For script(): a user who may not write into folders of ours, whoever runs the test. Lets them read here.
+  std::string as_stranger() const;
   /// A void-and-cluster mask with its metadata.
   void write_mask(const std::string& name, int side, std::uint64_t seed = 1) const;
 

@@ -2,6 +2,9 @@
 
 #include "ui/inspector.h"
 
+#include <sys/resource.h>
+
+#include <cstring>
 #include <fstream>
 
 #include "bn/bake.h"
@@ -189,6 +192,57 @@ TEST(Inspector, KeepsItsSessionAndShrugsOffADamagedOne) {
     std::ofstream(here / "s.json") << text;
     expect_success(here.script("wait 3\nexpect Run = on", "--session s.json"));
   }
+}
+
+TEST(Inspector, SaysWhereItsSettingsCannotBeKeptAndLivesOn) {
+  namespace fs = std::filesystem;
+  const Workplace here;
+  here.write_mask("mask.png", 32);
+  fs::create_directory(here / "locked");
+  fs::permissions(here / "locked", fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                                       fs::perms::others_exec);
+  for (const std::string session :
+       {"locked/s.json", "locked/new/s.json", "/proc/none/s.json", "mask.png/s.json"}) {
+    expect_success(here.script("wait-for Error contains " + session.substr(0, 6) + R"s(
+expect Status contains "will not be kept"
+click Dismiss
+open mask.png
+wait-for Size = "32 × 32"
+key ctrl+q
+)s",
+                               "--session " + session, here.as_stranger()));
+  }
+}
+
+TEST(Inspector, ShowsALargeTextureAndItsSpectrumWithinItsMemory) {
+  const Workplace here;
+  constexpr int kSide = 4096;
+  Image noise{.size = {kSide, kSide}, .channels = 1, .type = SampleType::u16, .samples = {}};
+  noise.samples.resize(std::size_t{2} * kSide * kSide);
+  for (std::size_t i = 0; i < noise.samples.size(); i += 8) {
+    const std::uint64_t bits = random_bits(1, 0, i);
+    std::memcpy(&noise.samples[i], &bits, sizeof bits);
+  }
+  write_image(here / "noise.bin", noise, {});
+  expect_success(here.script(R"s(
+open noise.bin
+wait-for Size = "4096 × 4096"
+wait-for Spectrum = "4096 × 4096" 60
+expect "Power, f ≤ 0.0625" > 0.98
+expect "Power, f ≤ 0.0625" < 1.02
+wait 60
+hover Picture 0.5 0.5
+wait 2
+print Pixel
+screenshot shot.png
+)s"));
+  // The file has 32 MiB; 1.2 GiB are measured.
+  rusage children{};
+  getrusage(RUSAGE_CHILDREN, &children);
+  EXPECT_LT(children.ru_maxrss, 2'000'000) << "KiB at most in memory";
+  const Image shot = read_image(here / "shot.png").image;
+  EXPECT_GT(contrast(shot, {0.05, 0.35, 0.40, 0.6}), 1.0) << "the noise, reduced";
+  EXPECT_GT(contrast(shot, {0.47, 0.1, 0.69, 0.45}), 1.0) << "its spectrum";
 }
 
 TEST(Inspector, SaysWhyItCannotStart) {

@@ -308,6 +308,54 @@ wait-for Error contains "/proc/none"
 )"));
 }
 
+TEST(RunView, TellsAFolderWithoutWriteAccessAndLivesOn) {
+  namespace fs = std::filesystem;
+  const Workplace here;
+  fs::create_directory(here / "locked");
+  fs::permissions(here / "locked", fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read |
+                                       fs::perms::others_exec);
+  fs::create_directory(here / "open");
+  fs::permissions(here / "open", fs::perms::all);
+  expect_success(here.script(R"s(wait 2
+set Proposals 1e6
+click Start
+wait-for State = finished
+click "Save texture …"
+set Path locked/tile.png
+click Save
+wait-for Error contains "locked"
+expect Error contains "ermission"
+click Dismiss
+key ctrl+2
+click "Export …"
+set Path locked
+click "Take this folder"
+wait-for Error contains "locked"
+expect Error contains "ermission"
+click Dismiss
+wait-for "Export …" enabled
+click "Export …"
+set Path locked/new
+click "Take this folder"
+wait-for Error contains "locked/new"
+click Dismiss
+key f12
+set Path locked/shot.png
+click Save
+wait-for Error contains "locked/shot.png"
+click Dismiss
+key ctrl+1
+click "Save texture …"
+set Path open/tile.png
+click Save
+wait-for Status contains Saved
+expect Error gone
+)s",
+                             "", here.as_stranger()));
+  EXPECT_TRUE(fs::is_empty(here / "locked"));
+  for (const VerifyItem& item : verify_path(here / "open/tile.png")) EXPECT_TRUE(item.pass) << item.detail;
+}
+
 TEST(CompareView, HoldsRunsAgainstEachOtherAndExportsThem) {
   const Workplace here;
   expect_success(here.script(R"(wait 2
