@@ -1,8 +1,5 @@
 #include "ui/optimum.h"
 
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <new>
 
@@ -11,9 +8,6 @@ namespace bn::ui {
 Optimum::Optimum(const AnnealProblem& problem) {
   task_.start(
       [levels = problem.channels.at(0).levels, options = problem.retarget](const Execution& execution) {
-        // Of this thread alone; where it is not granted, the proof merely competes.
-        constexpr int kNice = 10;
-        setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
         const auto start = std::chrono::steady_clock::now();
         Solved solved{.tile = solve_retarget(levels, options, execution)};
         solved.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -9,8 +9,7 @@
 
 namespace bn::ui {
 
-/// Starts to solve at once, at low priority, so that the run it belongs to keeps its speed. All functions are
-/// for the window's thread.
+/// Starts to solve at once. All functions are for the window's thread.
 class Optimum {
  public:
   /// One channel without a residual; other energies have no exact solver.

@@ -2,6 +2,9 @@
 
 #pragma once
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include <atomic>
 #include <exception>
 #include <functional>
@@ -26,13 +29,17 @@ class Task {
     for (auto& job : jobs_) job.thread.request_stop();
   }
 
-  /// `work` runs on its own thread with an Execution that carries stop, progress and `threads`.
+  /// `work` runs on its own thread, at low priority, so that the window and runs keep their speed, with an
+  /// Execution that carries stop, progress and `threads`.
   void start(Work work, int threads = 0) {
     stop();
     auto state = std::make_shared<State>();
     current_ = state;
     jobs_.push_back(
         {state, std::jthread([state, threads, work = std::move(work)](std::stop_token stop_token) {
+           // Of this thread alone; where it is not granted, the work merely competes.
+           constexpr int kNice = 10;
+           setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
            Execution execution{.threads = threads, .stop = stop_token};
            execution.progress = [&](double done) { state->progress = done; };
            try {

@@ -236,7 +236,7 @@ wait 2
 print Pixel
 screenshot shot.png
 )s"));
-  // The file has 32 MiB; 1.2 GiB are measured.
+  // Its samples are 32 MiB, as doubles 128; 1.1 GiB in all are measured.
   rusage children{};
   getrusage(RUSAGE_CHILDREN, &children);
   EXPECT_LT(children.ru_maxrss, 2'000'000) << "KiB at most in memory";
