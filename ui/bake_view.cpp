@@ -183,12 +183,21 @@ void BakeView::draw_controls(App& app) {
 void BakeView::draw_jobs(App& app) {
   heading("Jobs");
   const BakePlan& plan = planned_->plan;
-  if (!ImGui::BeginTable("jobs", 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
-  ImGui::TableSetupColumn("State", 0, 0.9f);
-  ImGui::TableSetupColumn("Job", 0, 1.9f);
-  ImGui::TableSetupColumn("Time", 0, 0.9f);
-  ImGui::TableSetupColumn("Energy", 0, 1.6f);
-  ImGui::TableSetupColumn("Files", 0, 2.7f);
+  // Where there is no room for all columns, they keep their widths and scroll.
+  static constexpr std::pair<const char*, float> kColumns[] = {
+      {"State", 4.5f}, {"Job", 9.5f}, {"Time", 5.0f}, {"Energy", 8.0f}, {"Files", 13.5f}};
+  const bool narrow = ImGui::GetContentRegionAvail().x < em(38);
+  constexpr auto kFlags = ImGuiTableFlags_RowBg;
+  if (!ImGui::BeginTable("jobs", std::size(kColumns),
+                         kFlags | (narrow ? ImGuiTableFlags_ScrollX : ImGuiTableFlags_SizingStretchProp)))
+    return;
+  for (const auto& [name, width] : kColumns) {
+    if (narrow) {
+      ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, em(width));
+    } else {
+      ImGui::TableSetupColumn(name, 0, width);
+    }
+  }
   ImGui::TableHeadersRow();
   for (int i = 0; i < static_cast<int>(plan.jobs.size()); ++i) draw_job(app, i);
   ImGui::EndTable();

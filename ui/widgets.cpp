@@ -80,8 +80,9 @@ bool main_button(const char* label, bool enabled, std::string_view hint) {
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, shade(is_dark() ? 0.82f : 0.9f));
   ImGui::PushStyleColor(ImGuiCol_ButtonActive, shade(is_dark() ? 0.6f : 0.8f));
   ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32_WHITE);
-  const bool clicked = recorded_button(label, enabled, hint);
+  const bool clicked = recorded_button(label, enabled, {});
   ImGui::PopStyleColor(4);
+  tooltip(hint);  // in the colours of all hints
   return clicked;
 }
 
