@@ -147,6 +147,10 @@ bool RunPictures::busy() const {
 
 void RunPictures::show(std::shared_ptr<const Source> source, const RetargetOptions& options,
                        std::shared_ptr<const Placement> placement) {
+  // Five pictures and their spectrum take some 60 bytes a pixel.
+  constexpr std::int64_t kMostShown = std::int64_t{8192} * 8192;
+  too_large_ = source && source->levels.value.size().area() > kMostShown;
+  if (too_large_) source.reset();
   wanted_ = {std::move(source), std::move(placement), options};
   // Another image's pictures would stand beside this one's figures.
   if (wanted_.source != shown_.source && wanted_.source != making_.source) clear();
@@ -207,6 +211,7 @@ void RunPictures::take_spectrum() {
 }
 
 void RunPictures::draw(ImVec2 size, bool ranges) {
+  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
   constexpr int kPictures = 5;
   const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
   const float before = ImGui::GetCursorPosY();

@@ -68,6 +68,7 @@ class RunPictures {
   void take_spectrum();
 
   Subject wanted_, making_, shown_;
+  bool too_large_ = false;
   Task<Made> make_;
   ImageView permuted_, target_, difference_, offsets_, spectrum_;
   ViewLink link_, spectrum_link_;

@@ -12,53 +12,41 @@
 #include <optional>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "bn/core.h"
 
 namespace bn::ui {
 
-/// start() again supersedes what runs: it is asked to stop, and its result is dropped. The window never
-/// waits, but in the destructor. All functions are for one thread.
+/// start() again supersedes what runs: it is asked to stop, its result is dropped, and the new work begins
+/// when it has ended, so that no two hold memory. The window never waits, but in the destructor. All
+/// functions are for one thread.
 template <class T>
 class Task {
  public:
   using Work = std::function<T(const Execution&)>;
 
-  ~Task() {
-    for (auto& job : jobs_) job.thread.request_stop();
-  }
+  ~Task() { stop(); }
 
   /// `work` runs on its own thread, at low priority, so that the window and runs keep their speed, with an
   /// Execution that carries stop, progress and `threads`.
   void start(Work work, int threads = 0) {
     stop();
-    auto state = std::make_shared<State>();
-    current_ = state;
-    jobs_.push_back(
-        {state, std::jthread([state, threads, work = std::move(work)](std::stop_token stop_token) {
-           // Of this thread alone; where it is not granted, the work merely competes.
-           constexpr int kNice = 10;
-           setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
-           Execution execution{.threads = threads, .stop = stop_token};
-           execution.progress = [&](double done) { state->progress = done; };
-           try {
-             state->result = work(execution);
-           } catch (...) {
-             state->error = std::current_exception();
-           }
-           state->done.store(true, std::memory_order_release);
-         })});
+    current_ = std::make_shared<State>();
+    waiting_ = std::move(work);
+    threads_ = threads;
+    begin_when_free();
   }
 
   /// Asks what runs to stop; its result is dropped.
   void stop() {
     current_.reset();
-    for (auto& job : jobs_) job.thread.request_stop();
+    waiting_ = nullptr;
+    request_stop();
   }
   /// Asks it to stop, and lets poll() say how it ended.
   void request_stop() {
-    for (auto& job : jobs_) job.thread.request_stop();
+    if (current_) current_->stopped = true;
+    if (thread_.joinable()) thread_.request_stop();
   }
 
   bool running() const { return current_ != nullptr; }
@@ -66,9 +54,7 @@ class Task {
 
   /// The result, once, when it is there. Rethrows what `work` threw. Call it every frame.
   std::optional<T> poll() {
-    std::erase_if(jobs_, [&](const Job& job) {
-      return job.state != current_ && job.state->done.load(std::memory_order_acquire);
-    });
+    begin_when_free();
     if (!current_ || !current_->done.load(std::memory_order_acquire)) return {};
     const auto state = std::exchange(current_, nullptr);
     if (state->error) std::rethrow_exception(state->error);
@@ -79,15 +65,40 @@ class Task {
   struct State {
     std::atomic<bool> done{false};
     std::atomic<double> progress{0.0};
+    bool stopped = false;  ///< before it began
     std::optional<T> result;
     std::exception_ptr error;
   };
-  struct Job {
-    std::shared_ptr<State> state;
-    std::jthread thread;
-  };
-  std::shared_ptr<State> current_;
-  std::vector<Job> jobs_;
+
+  void begin_when_free() {
+    if (running_ && running_->done.load(std::memory_order_acquire)) {
+      thread_.join();
+      running_.reset();
+    }
+    if (running_ || !waiting_) return;
+    running_ = current_;
+    thread_ = std::jthread([state = running_, threads = threads_,
+                            work = std::exchange(waiting_, nullptr)](std::stop_token stop_token) {
+      // Of this thread alone; where it is not granted, the work merely competes.
+      constexpr int kNice = 10;
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNice);
+      Execution execution{.threads = threads, .stop = stop_token};
+      execution.progress = [&](double done) { state->progress = done; };
+      try {
+        state->result = work(execution);
+      } catch (...) {
+        state->error = std::current_exception();
+      }
+      state->done.store(true, std::memory_order_release);
+    });
+    if (current_->stopped) thread_.request_stop();
+  }
+
+  std::shared_ptr<State> current_;  ///< whose result is wanted
+  std::shared_ptr<State> running_;  ///< of the thread; another than current_ where that one waits for its end
+  Work waiting_;
+  int threads_ = 0;
+  std::jthread thread_;
 };
 
 }  // namespace bn::ui
