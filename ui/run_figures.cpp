@@ -134,7 +134,7 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
     // Only watched sweeps tell, and one tells little: a point is a stretch of the run in which a few were
     // accepted.
     constexpr double kMostPoints = 64;
-    constexpr std::int64_t kFew = 4;
+    constexpr std::int64_t kFew = 16;
     Curve worse;
     worse.name = "of worsening";
     worse.colour = palette().series[1];
