@@ -223,6 +223,7 @@ void run(Settings& settings, Session& session) {
   for (const auto& tile : job.tiles) all_optimal = all_optimal && tile.energy == tile.lower_bound;
   result["start_energy"] = plain.start_energy;
   result["energy"] = plain.energy;
+  if (job.recomputed_energy) result["recomputed_energy"] = *job.recomputed_energy;
   result["lower_bound"] = plain.lower_bound;
   result["optimal"] = all_optimal;
   result["seconds"] = rounded_seconds(job.seconds);

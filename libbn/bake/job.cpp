@@ -164,6 +164,19 @@ JobRecord run_retarget_job(const RetargetEntry& entry, const Source& source,
                            .start_energy = tile.start_energy,
                            .energy = tile.energy,
                            .lower_bound = tile.lower_bound});
+      if (!entry.anneal) continue;
+      RetargetOptions moving = options;
+      moving.motion = {x, y};
+      const std::int64_t recomputed = energy_of(entry, source, tile.move, moving);
+      if (recomputed != tile.energy) {
+        throw Error(
+            {.code = ErrorCode::verification_failed,
+             .what = fmt::format("annealing says energy {}, its tile has {}", tile.energy, recomputed),
+             .where = fmt::format("{}, motion ({}, {})", entry.name, x, y),
+             .limit = "equal",
+             .remedy = "report it, with the image and the options"});
+      }
+      if (moving.motion == Offset{0, 0}) job.recomputed_energy = recomputed;
     }
   }
   const auto encode = [&](std::size_t index, MoveForm form) {

@@ -41,6 +41,7 @@ TEST_F(AnnealVerb, MakesATileThatVerifies) {
   EXPECT_EQ(json.at("proposals"), 1000000);
   EXPECT_EQ(json.at("seed"), 3);
   EXPECT_GE(json.at("energy"), json.at("lower_bound"));
+  EXPECT_EQ(json.at("recomputed_energy"), json.at("energy"));
   EXPECT_EQ(run({"verify", "tile.png"}).exit_code, 0);
   EXPECT_EQ(read_bytes(scratch_ / "trace.csv").rfind("step,seconds,temperature", 0), 0u);
 }

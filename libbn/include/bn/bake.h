@@ -180,6 +180,9 @@ struct JobRecord {
   std::vector<FileRecord> files = {};
   std::vector<TileRecord> tiles = {};          ///< of a retarget set: every motion, row by row
   std::optional<std::int64_t> proposals = {};  ///< the budget of each tile that was annealed now
+  /// Of the plain tile, annealed now: computed afresh from its moves. Equals the energy that the run kept by
+  /// adding changes; a job of which a tile's does not fails (verification_failed).
+  std::optional<std::int64_t> recomputed_energy = {};
   std::vector<std::string> notes = {};  ///< what a user should know: a constant source, no permutation, ...
 };
 
@@ -231,10 +234,11 @@ BakeResult bake(const Recipe& recipe, const BakeOptions& options, const Executio
 JobRecord make_mask(const MaskEntry& entry, const Execution& execution = {}, const BakeEvents& events = {});
 JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution = {},
                         const BakeEvents& events = {});
-/// Writes `tile`, which was made elsewhere (an Annealing that was watched), as the one output of `entry`, a tile.
-/// That entry.anneal makes this tile again is the caller's word; its permutation and energies are recomputed, its
-/// lower bound is bn verify's to check. Errors: as make_retarget(), and verification_failed.
-JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile, const Execution& execution = {});
+/// Writes `tile`, which was made elsewhere (an Annealing that was watched), as the one output of `entry`, a
+/// tile. That entry.anneal makes this tile again is the caller's word; its permutation and energies are
+/// recomputed, its lower bound is bn verify's to check. Errors: as make_retarget(), and verification_failed.
+JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile,
+                         const Execution& execution = {});
 
 // --- verify --------------------------------------------------------------------------------------
 
