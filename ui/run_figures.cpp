@@ -134,7 +134,9 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
     // Only watched sweeps tell, and one tells little: a point is a stretch of the run in which a few were
     // accepted.
     constexpr double kMostPoints = 64;
-    constexpr std::int64_t kFew = 16;
+    std::int64_t seen = 0;
+    for (const TracePoint& p : points) seen += sum(p.worsening_accepted);
+    const std::int64_t few = std::clamp<std::int64_t>(seen / 8, 4, 16);
     Curve worse;
     worse.name = "of worsening";
     worse.colour = palette().series[1];
@@ -145,7 +147,7 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
       tried += sum(p.worsening_tried);
       accepted += sum(p.worsening_accepted);
       const auto at = static_cast<double>(p.proposals);
-      if (accepted < kFew || at - last < budget / kMostPoints) continue;
+      if (accepted < few || at - last < budget / kMostPoints) continue;
       worse.x.push_back(0.5 * (at + last));
       worse.y.push_back(static_cast<double>(accepted) / static_cast<double>(tried));
       tried = accepted = 0;
