@@ -104,6 +104,23 @@ void draw_colour_bar(const Canvas& c, const HeatMap& heat, float left) {
   }
 }
 
+/// The stretch of a line that lies in a box, as shares of it; the first above the second where none does.
+std::pair<double, double> share_within(ImVec2 from, ImVec2 to, ImVec2 low, ImVec2 high) {
+  double enter = 0.0, leave = 1.0;
+  const auto cut = [&](float at, float by, float least, float most) {
+    if (by == 0.0f) {
+      if (at < least || at > most) leave = -1.0;
+      return;
+    }
+    const double a = static_cast<double>((least - at) / by), b = static_cast<double>((most - at) / by);
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  };
+  cut(from.x, to.x - from.x, low.x, high.x);
+  cut(from.y, to.y - from.y, low.y, high.y);
+  return {enter, leave};
+}
+
 void draw_curve(const Canvas& c, const Figure& figure, const Curve& curve) {
   const std::size_t count = std::min(curve.x.size(), curve.y.size());
   const float thick = std::max(1.5f, em(0.11f));
@@ -121,21 +138,25 @@ void draw_curve(const Canvas& c, const Figure& figure, const Curve& curve) {
     if (points.size() > 1 && !curve.dashed) {
       c.list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.colour, 0, thick);
     }
-    // Dashes by length on the screen, so that they look the same at any density of points.
-    float pattern = 0.0f;
-    const float dash = em(0.5f);
+    // Dashes by length on the screen, so that they look the same at any density of points; only those in
+    // sight, as a line may be a hundred thousand pixels long.
+    double before = 0.0;  // length of the line up to here
+    const double dash = static_cast<double>(em(0.5f)), period = 2.0 * dash;
     for (std::size_t i = 0; curve.dashed && i + 1 < points.size(); ++i) {
       const ImVec2 from = points[i], to = points[i + 1];
-      const float length = std::hypot(to.x - from.x, to.y - from.y);
-      const auto at = [&](float s) {
-        return ImVec2(from.x + (to.x - from.x) * s / length, from.y + (to.y - from.y) * s / length);
+      const double dx = static_cast<double>(to.x - from.x), dy = static_cast<double>(to.y - from.y);
+      const double length = std::hypot(dx, dy);
+      const auto at = [&](double s) {
+        return ImVec2(from.x + static_cast<float>(dx * (s - before) / length),
+                      from.y + static_cast<float>(dy * (s - before) / length));
       };
-      for (float s = 0.0f; s < length;) {
-        const float rest = dash - std::fmod(pattern, dash), end = std::min(length, s + rest + 1e-3f);
-        if (std::fmod(pattern, 2 * dash) < dash) c.list.AddLine(at(s), at(end), curve.colour, thick);
-        pattern += end - s;
-        s = end;
+      const auto [enter, leave] = share_within(from, to, c.list.GetClipRectMin(), c.list.GetClipRectMax());
+      const double first = before + enter * length, last = before + leave * length;
+      for (double begin = std::floor(first / period) * period; begin < last; begin += period) {
+        const double s = std::max(begin, first), end = std::min(begin + dash, last);
+        if (s < end) c.list.AddLine(at(s), at(end), curve.colour, thick);
       }
+      before += length;
     }
     points.clear();
   };

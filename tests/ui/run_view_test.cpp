@@ -176,6 +176,28 @@ wait-for "Factor a" = 0.999999
                              "--session s.json"));
 }
 
+TEST(RunView, APlanMayBeLookedAtFromAnyDistance) {
+  const Workplace here;
+  // Zoomed in far, its dashed line is longer than floats of pixels can count.
+  expect_success(here.script(R"s(wait 2
+wait-for Where contains "a ="
+wheel "Temperature plot" 8
+wheel "Temperature plot" 8
+wheel "Temperature plot" 8
+wheel "Temperature plot" 40
+wait 3
+wheel "Temperature plot" -200
+wait 3
+click "Start: T"
+set "Start T" 1e300
+set "Factor a" 0.001
+wait 20
+wheel "Temperature plot" 30
+wait 3
+expect State = "no run yet"
+)s"));
+}
+
 /// A tile that the window saved passes bn verify, and what it says of itself makes it again.
 void expect_it_is_made_again(const Workplace& here, const std::string& name,
                              const std::vector<std::string>& recipe_says) {
