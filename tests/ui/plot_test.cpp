@@ -1,7 +1,12 @@
-// Protects: what plots write beside their axes, and that no range of numbers breaks them.
+// Protects: what plots write beside their axes, that no range of numbers breaks them, and that they draw what
+// is in sight and no more.
 #include <gtest/gtest.h>
 
+#include "ui/keys.h"
+#include "ui/loop.h"
+#include "ui/plot.h"
 #include "ui/plot_scale.h"
+#include "ui/theme.h"
 
 namespace bn::ui {
 namespace {
@@ -65,6 +70,43 @@ TEST(Plot, ScalesAndBack) {
     EXPECT_DOUBLE_EQ(scale.share(10.0), 0.0);
     EXPECT_DOUBLE_EQ(scale.share(1000.0), 1.0);
     EXPECT_NEAR(scale.value(scale.share(77.0)), 77.0, 1e-9);
+  }
+}
+
+// Found by random events: zoomed in far, a dashed line is longer than floats of pixels can count.
+TEST(Plot, DrawsOnlyTheDashesInSight) {
+  const ImGuiSession session;
+  apply_theme(true, 1.0f);
+  ImGuiIO& io = ImGui::GetIO();
+  map_keys(io);
+  unsigned char* pixels = nullptr;
+  int width = 0, height = 0;
+  io.Fonts->GetTexDataAsRGBA32(&pixels, &width, &height);
+  io.DisplaySize = {800, 600};
+  io.DeltaTime = 1.0f / 60.0f;
+  Figure figure;
+  Curve& curve = figure.curves.emplace_back();
+  curve.name = "planned";
+  curve.colour = IM_COL32_WHITE;
+  curve.dashed = true;
+  curve.x = {0.0, 0.5, 1.0};
+  curve.y = {3.0, 2.0, 1.0};
+  Plot plot;
+  int all = 0;
+  for (const double span : {1.0, 1e-3, 1e-6, 1e-9}) {
+    PlotLink link{.x = Interval{0.5 - 0.3 * span, 0.5 + 0.7 * span}};
+    figure.y.low = 2.0 - 0.3 * span;
+    figure.y.high = 2.0 + 0.7 * span;
+    ImGui::NewFrame();
+    ImGui::SetNextWindowSize({700, 500});
+    ImGui::Begin("window");
+    plot.draw("plot", figure, {600, 400}, link);
+    ImGui::End();
+    ImGui::Render();
+    const int drawn = ImGui::GetDrawData()->TotalVtxCount;
+    if (all == 0) all = drawn;
+    EXPECT_GT(drawn, 100) << span;
+    EXPECT_LT(drawn, 3 * all) << span;
   }
 }
 
