@@ -183,27 +183,21 @@ void BakeView::draw_controls(App& app) {
 void BakeView::draw_jobs(App& app) {
   heading("Jobs");
   const BakePlan& plan = planned_->plan;
-  // Where there is no room for all columns, they keep their widths and scroll.
-  static constexpr std::pair<const char*, float> kColumns[] = {
-      {"State", 4.5f}, {"Job", 9.5f}, {"Time", 5.0f}, {"Energy", 8.0f}, {"Files", 13.5f}};
+  // Where there is no room for all columns, time and energy stand below the job's name.
   const bool narrow = ImGui::GetContentRegionAvail().x < em(38);
-  constexpr auto kFlags = ImGuiTableFlags_RowBg;
-  if (!ImGui::BeginTable("jobs", std::size(kColumns),
-                         kFlags | (narrow ? ImGuiTableFlags_ScrollX : ImGuiTableFlags_SizingStretchProp)))
+  if (!ImGui::BeginTable("jobs", narrow ? 3 : 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
     return;
-  for (const auto& [name, width] : kColumns) {
-    if (narrow) {
-      ImGui::TableSetupColumn(name, ImGuiTableColumnFlags_WidthFixed, em(width));
-    } else {
-      ImGui::TableSetupColumn(name, 0, width);
-    }
-  }
+  ImGui::TableSetupColumn("State", 0, narrow ? 1.1f : 0.9f);
+  ImGui::TableSetupColumn("Job", 0, 1.9f);
+  if (!narrow) ImGui::TableSetupColumn("Time", 0, 0.9f);
+  if (!narrow) ImGui::TableSetupColumn("Energy", 0, 1.6f);
+  ImGui::TableSetupColumn("Files", 0, 2.7f);
   ImGui::TableHeadersRow();
-  for (int i = 0; i < static_cast<int>(plan.jobs.size()); ++i) draw_job(app, i);
+  for (int i = 0; i < static_cast<int>(plan.jobs.size()); ++i) draw_job(app, i, narrow);
   ImGui::EndTable();
 }
 
-void BakeView::draw_job(App& app, int index) {
+void BakeView::draw_job(App& app, int index, bool narrow) {
   const PlannedJob& job = planned_->plan.jobs[static_cast<std::size_t>(index)];
   std::optional<JobRecord> record;
   bool running = false;
@@ -227,10 +221,10 @@ void BakeView::draw_job(App& app, int index) {
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(job.name.c_str());
   note(name_of(job.kind));
-  ImGui::TableNextColumn();
+  if (!narrow) ImGui::TableNextColumn();
   ImGui::TextUnformatted(record && !record->skipped ? seconds_text(record->seconds).c_str()
                                                     : ("~ " + seconds_text(job.estimated_seconds)).c_str());
-  ImGui::TableNextColumn();
+  if (!narrow) ImGui::TableNextColumn();
   if (record) ImGui::TextWrapped("%s", energy_text(record->tiles).c_str());
   ImGui::TableNextColumn();
   for (const std::string& file : job.files) {

@@ -36,7 +36,8 @@ class BakeView {
   BakeOptions options() const;
   void draw_controls(App& app);
   void draw_jobs(App& app);
-  void draw_job(App& app, int index);
+  /// `narrow`: in three columns, else in five.
+  void draw_job(App& app, int index, bool narrow);
   void draw_recipe();
 
   // What the user has set.

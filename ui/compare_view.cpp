@@ -170,6 +170,9 @@ void CompareView::draw(App& app) {
 void CompareView::draw_table() {
   constexpr auto kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX |
                           ImGuiTableFlags_ScrollY;
+  // ImGui's scrolling tables trip over a child window that is nowhere in sight.
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  if (!ImGui::IsRectVisible({room.x, room.y - ImGui::GetFrameHeightWithSpacing()})) return;
   if (!ImGui::BeginTable("runs", 11, kFlags, {0, -ImGui::GetFrameHeightWithSpacing()})) return;
   ImGui::TableSetupScrollFreeze(1, 1);
   for (const char* name :
