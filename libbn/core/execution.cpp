@@ -97,11 +97,11 @@ void parallel_for(const Execution& execution, std::int64_t count,
 #else
   // The process-wide limit lets the tests run more threads than the machine has cores, to show that
   // the number changes nothing. It is no higher than that: TBB may start a worker for every arena
-  // that was ever made.
-  static const tbb::global_control most_threads(
-      tbb::global_control::max_allowed_parallelism,
-      static_cast<std::size_t>(std::max(tbb::info::default_concurrency(), kMostOversubscribed)));
-  tbb::task_arena& arena = arena_of(threads);
+  // that was ever made. An arena that asks for more makes TBB print a warning.
+  static const int most = std::max(tbb::info::default_concurrency(), kMostOversubscribed);
+  static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
+                                         static_cast<std::size_t>(most));
+  tbb::task_arena& arena = arena_of(std::min(threads, most));
   arena.execute([&] {
     tbb::parallel_for(
         tbb::blocked_range<std::int64_t>(0, count, 1),

@@ -51,6 +51,12 @@ TEST_F(Verbs, NoiseWritesAMaskAndSaysWhatItIs) {
   EXPECT_EQ(info.at("metadata").at("seed"), 7);
 }
 
+TEST_F(Verbs, ManyMoreThreadsThanCoresAreNothingToWarnOf) {
+  const ProcessResult result =
+      run({"noise", "void-and-cluster", "--size", "64x64", "--threads", "1024", "-o", "m.png"});
+  EXPECT_EQ(result.err, "");
+}
+
 TEST_F(Verbs, RetargetPrintsItsFiguresWithAndWithoutAFile) {
   write_image(scratch_ / "m.png", simple_mask(16), {});
   const Json one = json({"retarget", "m.png", "--step", "5,-3", "--radius", "3", "--json"});
