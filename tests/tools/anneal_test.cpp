@@ -112,7 +112,7 @@ TEST_F(AnnealVerb, AMotionSetGoesOnWhereItWasKilled) {
   auto words = arguments("1.5e8", "atlas.png");
   words.insert(words.end(), {"--motion", "1"});
   const auto checkpoint = scratch_ / "atlas.png.checkpoint";
-  for (int wait_ms = 100; wait_ms < 10000 && !std::filesystem::exists(checkpoint); wait_ms *= 2) {
+  for (int wait_ms = 100; wait_ms < 10000 && !std::filesystem::exists(checkpoint); wait_ms += wait_ms / 4) {
     Process process(words, {.folder = scratch_.path()});
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
     process.send(SIGINT);
@@ -134,7 +134,7 @@ TEST_F(AnnealVerb, AMotionSetGoesOnWhereItWasKilled) {
 
 TEST_F(AnnealVerb, ABudgetInSecondsIsKeptByItsCheckpoint) {
   const auto checkpoint = scratch_ / "tile.png.checkpoint";
-  for (int wait_ms = 700; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms *= 2) {
+  for (int wait_ms = 700; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms += wait_ms / 4) {
     Process process(arguments("3s", "tile.png"), {.folder = scratch_.path()});
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
     process.send(SIGINT);
@@ -150,7 +150,7 @@ TEST_F(AnnealVerb, GoesOnWhereItWasStopped) {
   const std::string budget = "1.5e9";
   // A stop before the run began leaves no checkpoint: wait longer then.
   const auto checkpoint = scratch_ / "tile.png.checkpoint";
-  for (int wait_ms = 50; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms *= 2) {
+  for (int wait_ms = 50; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms += wait_ms / 4) {
     Process process(arguments(budget, "tile.png"), {.folder = scratch_.path()});
     std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
     process.send(SIGINT);
