@@ -30,6 +30,7 @@
 
 #include "bn/noise.h"
 #include "core/progress.h"
+#include "core/refuse.h"
 #include "noise/fill_tile.h"
 #include "noise/void_order.h"
 
@@ -38,14 +39,6 @@ namespace {
 
 constexpr int kMaxSide = 16384;
 constexpr std::uint32_t kStartStream = 1;  // of random_bits
-
-[[noreturn]] void refuse(const char* where, std::string what, std::string limit) {
-  throw Error({.code = ErrorCode::invalid_input,
-               .what = std::move(what),
-               .where = where,
-               .limit = std::move(limit),
-               .remedy = ""});
-}
 
 void check(const VoidAndClusterOptions& options) {
   const auto [width, height] = options.size;

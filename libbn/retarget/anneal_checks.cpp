@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bn/anneal.h"
-#include "retarget/refuse.h"
+#include "core/refuse.h"
 
 namespace bn {
 

@@ -1,7 +1,7 @@
 // The energy of any placement, computed afresh, and the check of placements that come from outside.
 
+#include "core/refuse.h"
 #include "retarget/anneal_engine.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/refuse.h"
 #include "retarget/filtered_energy.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

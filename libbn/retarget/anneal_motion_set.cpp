@@ -10,8 +10,8 @@
 #include <mutex>
 
 #include "core/progress.h"
+#include "core/refuse.h"
 #include "retarget/anneal_checkpoint.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

@@ -6,9 +6,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "core/refuse.h"
 #include "core/reproducible_math.h"
 #include "retarget/anneal_engine.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

@@ -16,8 +16,8 @@
 
 #include "bn/anneal.h"
 #include "core/progress.h"
+#include "core/refuse.h"
 #include "retarget/anneal_engine.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

@@ -11,11 +11,11 @@
 #include <cmath>
 
 #include "core/progress.h"
+#include "core/refuse.h"
 #include "core/reproducible_math.h"
 #include "retarget/anneal_checkpoint.h"
 #include "retarget/anneal_engine.h"
 #include "retarget/anneal_options.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

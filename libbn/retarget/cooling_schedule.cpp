@@ -10,8 +10,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/refuse.h"
 #include "core/reproducible_math.h"
-#include "retarget/refuse.h"
 
 namespace bn {
 namespace {

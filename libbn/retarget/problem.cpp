@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/refuse.h"
+
 namespace bn {
 namespace {
 
@@ -12,14 +14,6 @@ constexpr int kMaxRadius = 32;
 constexpr int kMaxMove = 127;
 constexpr std::int32_t kMaxLevel = (1 << 24) - 1;
 constexpr std::int64_t kMaxEnergy = std::int64_t{1} << 62;
-
-[[noreturn]] void refuse(std::string where, std::string what, std::string limit, std::string remedy = "") {
-  throw Error({.code = ErrorCode::invalid_input,
-               .what = std::move(what),
-               .where = std::move(where),
-               .limit = std::move(limit),
-               .remedy = std::move(remedy)});
-}
 
 }  // namespace
 

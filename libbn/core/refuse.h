@@ -1,8 +1,9 @@
-// The one way in which this room's annealing turns an option down: by name, with its range.
+// The one way in which the rooms turn an option down: by name, with its range.
 
 #pragma once
 
 #include <string>
+#include <utility>
 
 #include "bn/core.h"
 
