@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 

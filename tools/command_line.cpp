@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <deque>
 
+#include "bn/error.h"
+
 namespace bn::tools {
 namespace {
 

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "bn/version.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 

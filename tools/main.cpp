@@ -6,6 +6,8 @@
 #include <new>
 #include <system_error>
 
+#include "bn/error.h"
+#include "bn/version.h"
 #include "tools/command_line.h"
 #include "tools/help_text.h"
 #include "tools/signals.h"

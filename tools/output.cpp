@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn::tools {
 namespace {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bn/error.h"
 #include "tools/session.h"
 
 namespace bn::tools {

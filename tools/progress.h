@@ -11,7 +11,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn::tools {
 

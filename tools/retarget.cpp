@@ -7,6 +7,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "bn/error.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 

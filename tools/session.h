@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 #include "tools/output.h"
 #include "tools/progress.h"
 

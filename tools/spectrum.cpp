@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "bn/error.h"
 #include "bn/spectrum.h"
 #include "bn/texture.h"
 #include "tools/verb.h"

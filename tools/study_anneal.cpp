@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "bn/anneal.h"
+#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
 #include "tools/verb.h"

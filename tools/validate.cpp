@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/runtime.h"
 #include "tools/verb.h"

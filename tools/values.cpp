@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bn/error.h"
+
 namespace bn::tools {
 namespace {
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/grid.h"
 
 namespace bn::tools {
 

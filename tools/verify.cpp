@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 

@@ -8,6 +8,8 @@
 #include <new>
 #include <utility>
 
+#include "bn/error.h"
+#include "bn/version.h"
 #include "ui/keys.h"
 #include "ui/texture_file.h"
 #include "ui/widgets.h"

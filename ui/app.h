@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/error.h"
 #include "ui/bake_view.h"
 #include "ui/compare_view.h"
 #include "ui/file_chooser.h"

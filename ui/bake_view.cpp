@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "bn/error.h"
 #include "ui/app.h"
 #include "ui/widgets.h"
 

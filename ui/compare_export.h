@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 
 namespace bn::ui {
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/grid.h"
 
 namespace bn::ui {
 

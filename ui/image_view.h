@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/grid.h"
 #include "ui/gl_texture.h"
 #include "ui/task.h"
 

@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 
+#include "bn/error.h"
+#include "bn/version.h"
 #include "ui/loop.h"
 
 namespace bn::ui {

@@ -10,6 +10,7 @@
 #include <cstring>
 #include <utility>
 
+#include "bn/error.h"
 #include "ui/gl.h"
 #include "ui/keys.h"
 #include "ui/surface.h"

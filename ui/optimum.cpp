@@ -3,6 +3,8 @@
 #include <chrono>
 #include <new>
 
+#include "bn/error.h"
+
 namespace bn::ui {
 
 Optimum::Optimum(const AnnealProblem& problem) {

@@ -5,6 +5,8 @@
 #include <new>
 #include <utility>
 
+#include "bn/error.h"
+
 namespace bn::ui {
 namespace {
 

@@ -19,6 +19,7 @@
 #include <thread>
 
 #include "bn/anneal.h"
+#include "bn/error.h"
 
 namespace bn::ui {
 

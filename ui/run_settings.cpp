@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "bn/error.h"
 #include "ui/parameters.h"
 #include "ui/plot.h"
 #include "ui/widgets.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bn/bake.h"
+#include "bn/error.h"
 #include "ui/source.h"
 
 namespace bn::ui {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "bn/error.h"
 #include "ui/run_figures.h"
 #include "ui/run_pictures.h"
 

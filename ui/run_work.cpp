@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bn/error.h"
 #include "ui/app.h"
 #include "ui/parameters.h"
 #include "ui/run_view.h"

@@ -11,7 +11,7 @@
 #include <thread>
 #include <utility>
 
-#include "bn/core.h"
+#include "bn/error.h"
 #include "ui/app.h"
 #include "ui/items.h"
 #include "ui/keys.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "bn/core.h"
+#include "bn/random.h"
 #include "ui/app.h"
 #include "ui/items.h"
 #include "ui/script.h"

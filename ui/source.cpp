@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
+
 namespace bn::ui {
 
 Source load_source(const SourceChoice& choice, const Execution& execution) {

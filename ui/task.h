@@ -13,7 +13,7 @@
 #include <thread>
 #include <utility>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 
 namespace bn::ui {
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bn/bake.h"
+#include "bn/error.h"
 #include "ui/run_pictures.h"
 
 namespace bn::ui {

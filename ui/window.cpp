@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bn/error.h"
 #include "ui/app.h"
 #include "ui/gl.h"
 #include "ui/surface.h"

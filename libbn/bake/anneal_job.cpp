@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

@@ -14,6 +14,7 @@
 #include "bake/layout.h"
 #include "bake/manifest.h"
 #include "bake/standing.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

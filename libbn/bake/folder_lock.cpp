@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn {
 

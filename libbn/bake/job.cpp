@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "bake/anneal_job.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

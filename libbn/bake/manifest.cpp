@@ -5,6 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "bn/error.h"
+#include "bn/version.h"
+
 namespace bn {
 namespace {
 

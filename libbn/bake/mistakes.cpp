@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
+
 namespace bn {
 
 void Mistakes::add(int line, std::string what, std::string limit, std::string remedy) {

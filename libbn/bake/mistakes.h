@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn {
 

@@ -11,6 +11,7 @@
 #include "bake/mistakes.h"
 #include "bake/standing.h"
 #include "bn/bake.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

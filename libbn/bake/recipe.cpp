@@ -16,6 +16,7 @@
 #include "bake/recipe_reader.h"
 #include "bake/toml_check.h"
 #include "bn/bake.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

@@ -11,6 +11,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

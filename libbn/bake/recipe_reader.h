@@ -25,7 +25,7 @@ constexpr void require_sound_toml(bool sound) {
 #include <vector>
 
 #include "bake/mistakes.h"
-#include "bn/core.h"
+#include "bn/grid.h"
 
 namespace bn {
 

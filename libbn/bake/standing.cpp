@@ -1,6 +1,7 @@
 #include "bake/standing.h"
 
 #include "bake/contact_sheet.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

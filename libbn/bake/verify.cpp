@@ -11,6 +11,7 @@
 #include "bake/job.h"
 #include "bake/manifest.h"
 #include "bn/bake.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

@@ -1,4 +1,4 @@
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

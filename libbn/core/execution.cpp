@@ -17,6 +17,8 @@
 #include <vector>
 #endif
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

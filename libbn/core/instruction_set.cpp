@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 #include <hwy/highway.h>
 
-#include "bn/core.h"
+#include "bn/error.h"
+#include "bn/execution.h"
 
 namespace bn {
 namespace {

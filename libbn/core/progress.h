@@ -6,7 +6,7 @@
 #include <atomic>
 #include <mutex>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 
 namespace bn {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn {
 

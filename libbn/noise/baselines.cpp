@@ -12,7 +12,9 @@
 #include <numeric>
 #include <utility>
 
+#include "bn/error.h"
 #include "bn/noise.h"
+#include "bn/random.h"
 
 namespace bn {
 namespace {

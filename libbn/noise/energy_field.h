@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/grid.h"
 #include "noise/gaussian_kernel.h"
 
 namespace bn {

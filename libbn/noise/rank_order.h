@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
 #include "noise/gaussian_kernel.h"
 
 namespace bn {

@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "bn/noise.h"
+#include "bn/random.h"
 #include "core/progress.h"
 #include "core/refuse.h"
 #include "noise/fill_tile.h"

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
 

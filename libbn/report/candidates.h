@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 
 namespace bn::report {
 

@@ -21,7 +21,7 @@
 #include <system_error>
 #include <thread>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn::report {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "bn/version.h"
 #include "report/html.h"
 
 namespace bn::report {

@@ -10,6 +10,7 @@
 #include <set>
 #include <system_error>
 
+#include "bn/error.h"
 #include "bn/texture.h"
 #include "report/page.h"
 #include "report/plot.h"

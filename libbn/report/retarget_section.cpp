@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "bn/error.h"
 #include "bn/retarget.h"
 #include "report/html.h"
 #include "report/pictures.h"

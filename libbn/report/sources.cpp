@@ -14,6 +14,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "bn/error.h"
 #include "bn/retarget.h"
 #include "report/candidates.h"
 

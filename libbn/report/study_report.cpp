@@ -10,6 +10,7 @@
 #include <map>
 #include <sstream>
 
+#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
 #include "report/html.h"

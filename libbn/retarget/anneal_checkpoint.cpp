@@ -6,6 +6,8 @@
 #include <bit>
 #include <type_traits>
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "bn/anneal.h"
+#include "bn/random.h"
 #include "core/progress.h"
 #include "core/refuse.h"
 #include "retarget/anneal_engine.h"

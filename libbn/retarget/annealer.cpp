@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "bn/random.h"
 #include "core/progress.h"
 #include "core/refuse.h"
 #include "core/reproducible_math.h"

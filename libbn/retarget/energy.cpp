@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
 #include "retarget/problem.h"
 
 namespace bn {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bn/error.h"
 #include "core/reproducible_math.h"
 
 namespace bn {

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/grid.h"
 
 namespace bn {
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
 #include "core/progress.h"
 #include "retarget/problem.h"
 

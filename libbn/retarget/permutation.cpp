@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
 #include "retarget/problem.h"
 
 namespace bn {

@@ -12,6 +12,7 @@
 #include <bit>
 #include <numeric>
 
+#include "bn/random.h"
 #include "retarget/anneal_engine.h"
 #include "retarget/filtered_energy.h"
 #include "retarget/metropolis.h"

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "bn/error.h"
 #include "retarget/assignment.h"
 
 namespace bn {

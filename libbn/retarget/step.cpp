@@ -9,6 +9,7 @@
 
 #include <numeric>
 
+#include "bn/error.h"
 #include "bn/retarget.h"
 
 namespace bn {

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "bn/random.h"
+
 namespace bn {
 namespace {
 

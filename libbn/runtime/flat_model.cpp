@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bn/random.h"
 #include "bn/runtime.h"
 
 namespace bn {

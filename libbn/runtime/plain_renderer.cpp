@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "runtime/plain_passes.h"
 
 namespace bn {

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bn/random.h"
 #include "bn/runtime.h"
 #include "runtime/error_spectrum.h"
 

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
 #include "bn/runtime.h"
 
 namespace bn {

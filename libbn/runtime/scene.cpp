@@ -11,6 +11,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "bn/error.h"
+#include "bn/random.h"
+
 namespace bn {
 namespace {
 

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "bn/error.h"
 #include "bn/texture.h"
 #include "runtime/scene.h"
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
 #include "bn/runtime.h"
 
 namespace bn {

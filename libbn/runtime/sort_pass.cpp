@@ -19,6 +19,8 @@
 #include <array>
 #include <bit>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "bn/runtime.h"
 
 namespace bn {

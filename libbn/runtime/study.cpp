@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
 #include "bn/texture.h"
 #include "runtime/renderer.h"
 #include "runtime/study.h"

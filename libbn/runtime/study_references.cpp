@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "bn/error.h"
 #include "bn/texture.h"
 #include "runtime/renderer.h"
 #include "runtime/scene.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
 #include "bn/noise.h"
 #include "bn/retarget.h"
 #include "bn/runtime.h"

@@ -9,6 +9,8 @@
 
 #include <cstdlib>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "bn/retarget.h"
 #include "bn/runtime.h"
 

@@ -14,6 +14,8 @@
 #include <cstring>
 #include <optional>
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

@@ -10,7 +10,6 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
-#include "bn/core.h"
 
 namespace bn {
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/error.h"
 #include "runtime/shader_code.h"
 
 namespace bn {

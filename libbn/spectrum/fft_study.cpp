@@ -14,6 +14,8 @@
 #include <ctime>
 #include <numbers>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "bn/spectrum.h"
 
 namespace bn {
@@ -109,7 +111,7 @@ FftStudyRow study_ours(const std::vector<float>& values, int side, const std::ve
       execution);
   const double error = relative_error(columns, side, [&](int kx, int ky) {
     return LongComplex(
-        spectrum.values[static_cast<std::size_t>(std::int64_t{ky} * spectrum.shape.half_width() + kx)]);
+        spectrum.values[static_cast<std::size_t>(std::int64_t{ky} * half_width(spectrum.shape) + kx)]);
   });
   return {"bn", sizeof(T) == sizeof(float) ? "float" : "double", side, seconds, error};
 }

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 
 namespace bn {
 

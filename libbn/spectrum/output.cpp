@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bn/error.h"
 #include "bn/spectrum.h"
 #include "spectrum/transform.h"
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "bn/error.h"
 #include "bn/spectrum.h"
 #include "spectrum/fixed_order_sum.h"
 #include "spectrum/transform.h"
@@ -75,7 +76,7 @@ double PowerSpectrum::at(std::int64_t kx, std::int64_t ky, std::int64_t kz) cons
     y = wrap(-y, shape.height);
     z = wrap(-z, shape.depth);
   }
-  return half[(std::size_t(z) * shape.height + y) * shape.half_width() + x];
+  return half[(std::size_t(z) * shape.height + y) * half_width(shape) + x];
 }
 
 PowerSpectrum power_spectrum(std::span<const double> values, Shape shape, const Execution& execution) {
@@ -97,7 +98,7 @@ PowerSpectrum power_spectrum(std::span<const double> values, Shape shape, const 
   };
   const HalfSpectrum<double> spectrum = transform_rows(shape, load_row, execution);
   const double scale = 1.0 / (static_cast<double>(count) * centring.variance);
-  const std::int64_t pitch = shape.half_width();
+  const std::int64_t pitch = half_width(shape);
   parallel_for(execution, std::int64_t{shape.height} * shape.depth, [&](std::int64_t row) {
     const std::complex<double>* source = spectrum.values.data() + row * pitch;
     double* target = power.half.data() + row * pitch;
@@ -151,7 +152,7 @@ PowerSpectrum project(const PowerSpectrum& volume, Projection projection) {
     return count > 0 ? sum_by_halves(terms.data(), std::ssize(terms)) / static_cast<double>(count) : 0.0;
   };
   for (int row = 0; row < result.shape.height; ++row) {
-    for (int k = 0; k < result.shape.half_width(); ++k) {
+    for (int k = 0; k < half_width(result.shape); ++k) {
       terms.clear();
       if (projection == Projection::xy) {
         for (int z = 0; z < from.depth; ++z) terms.push_back(volume.at(k, row, z));
@@ -162,7 +163,7 @@ PowerSpectrum project(const PowerSpectrum& volume, Projection projection) {
           for (int x = 0; x < from.width; ++x) terms.push_back(volume.at(x, y, k));
         }
       }
-      result.half[std::size_t(row) * result.shape.half_width() + k] = mean(row == 0 && k == 0);
+      result.half[std::size_t(row) * half_width(result.shape) + k] = mean(row == 0 && k == 0);
     }
   }
   return result;

@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bn/error.h"
 #include "bn/spectrum.h"
 #include "spectrum/fixed_order_sum.h"
 #include "spectrum/transform.h"
@@ -45,7 +46,7 @@ struct HalfPlane {
   explicit HalfPlane(const PowerSpectrum& p)
       : power(p),
         longer(std::max(p.shape.width, p.shape.height)),
-        x_squared(squared_frequencies(p.shape.width, longer, p.shape.half_width())),
+        x_squared(squared_frequencies(p.shape.width, longer, half_width(p.shape))),
         y_squared(squared_frequencies(p.shape.height, longer, p.shape.height)) {}
 
   /// 2 where the conjugate of column kx is not in the half plane itself.
@@ -54,9 +55,9 @@ struct HalfPlane {
   /// Calls body(r_squared, weight, power) along row ky, DC left out.
   template <class Body>
   void walk_row(int ky, const Body& body) const {
-    const double* row = power.half.data() + std::int64_t{ky} * power.shape.half_width();
+    const double* row = power.half.data() + std::int64_t{ky} * half_width(power.shape);
     const double y2 = y_squared[static_cast<std::size_t>(ky)];
-    for (int kx = ky == 0 ? 1 : 0; kx < power.shape.half_width(); ++kx) {
+    for (int kx = ky == 0 ? 1 : 0; kx < half_width(power.shape); ++kx) {
       body(x_squared[static_cast<std::size_t>(kx)] + y2, weight(kx), row[kx]);
     }
   }
@@ -173,7 +174,7 @@ double gauss_residual_db(const PowerSpectrum& power, double sigma_px) {
                  .remedy = ""});
   }
   const Shape& shape = power.shape;
-  const int pitch = shape.half_width();
+  const int pitch = half_width(shape);
   std::vector<double> gain_x = gaussian_gain(shape.width, pitch, sigma_px);
   const std::vector<double> gain_y = gaussian_gain(shape.height, shape.height, sigma_px);
   const HalfPlane plane(power);

@@ -15,6 +15,7 @@
 #include <limits>
 #include <utility>
 
+#include "bn/error.h"
 #include "bn/spectrum.h"
 #include "spectrum/ranks.h"
 #include "spectrum/transform.h"

@@ -17,6 +17,7 @@
 #include <numeric>
 #include <vector>
 
+#include "bn/error.h"
 #include "spectrum/line_fft.h"
 
 namespace bn {
@@ -170,7 +171,7 @@ HalfSpectrum<T> transform_rows(Shape shape, const std::function<void(std::int64_
                                const Execution& execution) {
   HalfSpectrum<T> spectrum{shape, {}};
   spectrum.values.resize(static_cast<std::size_t>(half_count(shape)));
-  const std::int64_t pitch = shape.half_width();
+  const std::int64_t pitch = half_width(shape);
   for_each_row<T>(shape, execution, [&](auto& bench, std::int64_t row) {
     load_row(row, bench.row.data());
     bench.fft.forward_real(spectrum.values.data() + row * pitch, bench.row.data());
@@ -206,7 +207,7 @@ std::vector<T> inverse_transform(HalfSpectrum<T> spectrum, const Execution& exec
                  .remedy = ""});
   }
   check_memory(execution, static_cast<std::uint64_t>(shape.count()) * sizeof(T), "inverse transform");
-  const std::int64_t pitch = shape.half_width();
+  const std::int64_t pitch = half_width(shape);
   transform_lines(spectrum.values.data(), shape.depth, pitch * shape.height, pitch * shape.height, 1,
                   Direction::inverse, execution);
   transform_lines(spectrum.values.data(), shape.height, pitch, pitch, shape.depth, Direction::inverse,

@@ -27,7 +27,7 @@ void check_finite(std::span<const T> values, const Shape& shape, std::string_vie
 
 /// Frequencies that a HalfSpectrum of `shape` holds.
 inline std::int64_t half_count(const Shape& shape) {
-  return std::int64_t{shape.half_width()} * shape.height * shape.depth;
+  return std::int64_t{half_width(shape)} * shape.height * shape.depth;
 }
 
 /// transform() of rows that `load_row` writes; row z * H + y, from any thread.

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn::texture {
 

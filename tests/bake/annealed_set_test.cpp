@@ -1,5 +1,6 @@
 // Protects: a bake stopped in the middle of a motion set that it anneals goes on with what its variants had
 // done and ends with the bytes of an uninterrupted one; a variant that was finished is not made again.
+#include "bn/error.h"
 #include "fixtures.h"
 #include "retarget/anneal_checkpoint.h"
 

@@ -8,6 +8,7 @@
 
 #include "bake/folder_lock.h"
 #include "bake/manifest.h"
+#include "bn/error.h"
 #include "fixtures.h"
 
 namespace bn {

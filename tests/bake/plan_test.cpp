@@ -2,6 +2,7 @@
 // later: formats, folders, permissions, source images, memory; with the recipe's line.
 #include <unistd.h>
 
+#include "bn/error.h"
 #include "fixtures.h"
 
 namespace bn {

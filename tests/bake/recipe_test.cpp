@@ -2,6 +2,8 @@
 // range and remedy, all mistakes at once; no text crashes the parser.
 #include "fixtures.h"
 
+#include "bn/error.h"
+
 namespace bn {
 namespace {
 

@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "bake/job.h"
+#include "bn/error.h"
 #include "fixtures.h"
 
 namespace bn {

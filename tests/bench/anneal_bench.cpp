@@ -3,6 +3,7 @@
 //   bench_anneal --benchmark_filter=Sweep/256
 #include <benchmark/benchmark.h>
 
+#include "bn/random.h"
 #include "retarget/anneal_engine.h"
 
 namespace bn {

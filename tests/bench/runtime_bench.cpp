@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "bn/random.h"
 #include "bn/runtime.h"
 #include "runtime/vulkan_passes.h"
 

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <vector>
 
+#include "bn/random.h"
 #include "bn/spectrum.h"
 
 namespace bn {

@@ -1,7 +1,7 @@
 // Protects: a message always says where, what, limit and remedy, and leaves no empty brackets.
 #include <gtest/gtest.h>
 
-#include "bn/core.h"
+#include "bn/error.h"
 
 namespace bn {
 namespace {

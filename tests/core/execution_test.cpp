@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "bn/error.h"
 #include "core/progress.h"
 
 namespace bn {

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "bn/core.h"
+#include "bn/grid.h"
 
 namespace bn {
 namespace {

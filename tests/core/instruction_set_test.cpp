@@ -1,7 +1,8 @@
 // Protects: every listed instruction set can be forced and undone, and others are refused.
 #include <gtest/gtest.h>
 
-#include "bn/core.h"
+#include "bn/error.h"
+#include "bn/execution.h"
 
 namespace bn {
 namespace {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "bn/core.h"
+#include "bn/random.h"
 
 namespace bn {
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "bn/error.h"
 #include "bn/texture.h"
 #include "texture/codec.h"
 #include "texture/image.h"

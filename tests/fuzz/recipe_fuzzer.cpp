@@ -6,6 +6,7 @@
 
 #include "bn/anneal.h"
 #include "bn/bake.h"
+#include "bn/error.h"
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bn/error.h"
 #include "bn/noise.h"
 
 namespace bn {

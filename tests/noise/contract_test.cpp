@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "bn/error.h"
 #include "bn/noise.h"
 #include "noise/gaussian_kernel.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bn/noise.h"
+#include "bn/random.h"
 #include "reference_void_and_cluster.h"
 
 namespace bn {

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "bn/random.h"
+
 namespace bn {
 namespace {
 

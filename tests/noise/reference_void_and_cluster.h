@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bn/noise.h"
+#include "bn/random.h"
 #include "noise/gaussian_kernel.h"
 
 namespace bn {

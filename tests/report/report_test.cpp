@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "bn/error.h"
 #include "report/candidates.h"
 #include "report/child_process.h"
 #include "report/fixtures.h"

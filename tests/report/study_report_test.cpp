@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
 

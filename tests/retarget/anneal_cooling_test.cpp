@@ -9,6 +9,7 @@
 #include <string>
 
 #include "bn/anneal.h"
+#include "bn/error.h"
 #include "retarget/cooling.h"
 
 namespace bn {

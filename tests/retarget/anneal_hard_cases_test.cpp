@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "bn/anneal.h"
+#include "bn/random.h"
 #include "bn/texture.h"
 #include "reference.h"
 #include "retarget/anneal_checkpoint.h"

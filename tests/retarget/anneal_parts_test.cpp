@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "bn/anneal.h"
+#include "bn/error.h"
 #include "reference.h"
 #include "retarget/anneal_engine.h"
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "bn/anneal.h"
+#include "bn/error.h"
 #include "reference.h"
 
 namespace bn {

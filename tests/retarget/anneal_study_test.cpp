@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "bn/anneal.h"
+#include "bn/error.h"
 #include "reference.h"
 
 namespace bn {

@@ -7,6 +7,7 @@
 
 #include <ostream>
 
+#include "bn/error.h"
 #include "boltzmann.h"
 
 namespace bn {

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "bn/error.h"
 #include "bn/retarget.h"
 
 namespace bn {

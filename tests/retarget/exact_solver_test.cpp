@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stop_token>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "reference.h"
 #include "retarget/assignment.h"
 

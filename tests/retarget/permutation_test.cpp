@@ -1,6 +1,7 @@
 // Protects: tiles that are no bijection, or out of reach, are refused with the pixel's name; inverses.
 #include <gtest/gtest.h>
 
+#include "bn/error.h"
 #include "bn/retarget.h"
 
 namespace bn {

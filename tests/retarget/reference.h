@@ -8,6 +8,7 @@
 #include <numeric>
 #include <vector>
 
+#include "bn/random.h"
 #include "bn/retarget.h"
 
 namespace bn {

@@ -4,6 +4,7 @@
 
 #include <ostream>
 
+#include "bn/random.h"
 #include "reference.h"
 
 namespace bn {

@@ -4,6 +4,7 @@
 #include <set>
 #include <tuple>
 
+#include "bn/error.h"
 #include "bn/retarget.h"
 
 namespace bn {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "bn/runtime.h"
 
 namespace bn {

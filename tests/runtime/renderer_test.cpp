@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "runtime/test_textures.h"
 
 namespace bn {

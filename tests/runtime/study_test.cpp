@@ -6,6 +6,7 @@
 #include <fstream>
 #include <string>
 
+#include "bn/error.h"
 #include "bn/texture.h"
 #include "runtime/error_spectrum.h"
 #include "runtime/study.h"

@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdio>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "bn/runtime.h"
 #include "runtime/vulkan_passes.h"
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "bn/noise.h"
+#include "bn/random.h"
 #include "direct_dft.h"
 #include "reference_mask.h"
 #include "reference_stbn.h"

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "bn/random.h"
 #include "bn/spectrum.h"
 
 namespace bn::test {

@@ -1,6 +1,7 @@
 // Protects: the study holds every method against the same sums, so its errors are those of the types.
 #include <gtest/gtest.h>
 
+#include "bn/error.h"
 #include "bn/spectrum.h"
 
 namespace bn {

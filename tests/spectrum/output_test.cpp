@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bn/error.h"
 #include "direct_dft.h"
 
 namespace bn {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "bn/error.h"
 #include "direct_dft.h"
 
 namespace bn {

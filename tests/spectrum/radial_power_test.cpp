@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "bn/error.h"
 #include "direct_dft.h"
 
 namespace bn {

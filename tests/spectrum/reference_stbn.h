@@ -14,6 +14,7 @@
 #include <limits>
 #include <vector>
 
+#include "bn/random.h"
 #include "bn/spectrum.h"
 
 namespace bn::test {

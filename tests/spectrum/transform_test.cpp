@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "bn/error.h"
 #include "direct_dft.h"
 
 namespace bn {
@@ -21,11 +22,11 @@ template <class T>
 double relative_error(const std::vector<T>& values, Shape shape) {
   const auto exact = test::direct_dft(values, shape);
   const HalfSpectrum<T> fast = transform<T>(values, shape);
-  EXPECT_EQ(fast.values.size(), static_cast<std::size_t>(shape.half_width()) * shape.height * shape.depth);
+  EXPECT_EQ(fast.values.size(), static_cast<std::size_t>(half_width(shape)) * shape.height * shape.depth);
   long double error = 0.0L, total = 0.0L;
   std::size_t at = 0;
   for (int row = 0; row < shape.height * shape.depth; ++row) {
-    for (int kx = 0; kx < shape.half_width(); ++kx, ++at) {
+    for (int kx = 0; kx < half_width(shape); ++kx, ++at) {
       const LongComplex wanted = exact[static_cast<std::size_t>(row) * shape.width + kx];
       error += std::norm(LongComplex(fast.values[at]) - wanted);
       total += std::norm(wanted);
@@ -154,7 +155,7 @@ TEST(Transform, ParsevalHolds) {
     long double energy = 0.0L, power = 0.0L;
     for (const double v : values) energy += static_cast<long double>(v) * v;
     for (std::size_t i = 0; i < spectrum.values.size(); ++i) {
-      const int kx = static_cast<int>(i) % shape.half_width();
+      const int kx = static_cast<int>(i) % half_width(shape);
       const int weight = kx == 0 || 2 * kx == shape.width ? 1 : 2;
       power += weight * std::norm(LongComplex(spectrum.values[i]));
     }

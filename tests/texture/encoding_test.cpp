@@ -2,6 +2,7 @@
 #include <map>
 #include <numeric>
 
+#include "bn/error.h"
 #include "texture/fixtures.h"
 
 namespace bn::texture {

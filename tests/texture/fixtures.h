@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "bn/texture.h"
 #include "texture/image.h"
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <map>
 
+#include "bn/error.h"
 #include "texture/codec.h"
 #include "texture/fixtures.h"
 

@@ -2,6 +2,8 @@
 // limits do not allow; and the answer to a bad file is a bn::Error with the right code.
 #include <sys/stat.h>
 
+#include "bn/error.h"
+#include "bn/random.h"
 #include "texture/codec.h"
 #include "texture/fixtures.h"
 

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bn/error.h"
 #include "texture/fixtures.h"
 
 namespace bn::texture {

@@ -2,6 +2,7 @@
 // and nothing of the machine or the time gets into a file.
 #include <cstdlib>
 
+#include "bn/error.h"
 #include "texture/fixtures.h"
 #include "texture/metadata.h"
 

@@ -2,6 +2,8 @@
 // and number of channels; and writing twice gives the same bytes.
 #include "texture/fixtures.h"
 
+#include "bn/error.h"
+
 namespace bn::texture {
 namespace {
 

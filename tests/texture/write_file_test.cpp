@@ -12,6 +12,7 @@
 #include <functional>
 #include <thread>
 
+#include "bn/error.h"
 #include "texture/fixtures.h"
 
 namespace bn::texture {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "bn/error.h"
 #include "tools/help_text.h"
 
 namespace bn::tools {

@@ -2,7 +2,7 @@
 // full streams, a reader that leaves early.
 #include <gtest/gtest.h>
 
-#include "bn/core.h"
+#include "bn/version.h"
 #include "process.h"
 
 namespace bn::tools {

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <thread>
 
+#include "bn/error.h"
+
 namespace bn::tools {
 namespace {
 

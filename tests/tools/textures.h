@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "bn/random.h"
 #include "bn/texture.h"
 
 namespace bn::tools {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "bn/error.h"
+
 namespace bn::tools {
 namespace {
 

@@ -8,7 +8,9 @@
 #include <fstream>
 
 #include "bn/bake.h"
+#include "bn/error.h"
 #include "bn/noise.h"
+#include "bn/random.h"
 #include "bn/spectrum.h"
 
 namespace bn::ui {

@@ -6,6 +6,7 @@
 
 #include <functional>
 
+#include "bn/error.h"
 #include "bn/noise.h"
 #include "bn/texture.h"
 

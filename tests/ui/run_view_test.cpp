@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "bn/bake.h"
+#include "bn/error.h"
 #include "bn/noise.h"
 #include "ui/inspector.h"
 

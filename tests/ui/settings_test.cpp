@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "bn/error.h"
 #include "ui/parameters.h"
 #include "ui/run_settings.h"
 

@@ -21,7 +21,8 @@
 #include <variant>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
 #include "bn/retarget.h"
 
 namespace bn {

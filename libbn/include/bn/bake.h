@@ -19,7 +19,8 @@
 #include <vector>
 
 #include "bn/anneal.h"
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
 #include "bn/noise.h"
 #include "bn/retarget.h"
 #include "bn/texture.h"

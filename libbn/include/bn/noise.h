@@ -5,7 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
 
 namespace bn {
 

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
 
 namespace bn {
 

@@ -23,7 +23,8 @@
 #include <string_view>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
 
 namespace bn {
 

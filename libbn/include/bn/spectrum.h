@@ -20,22 +20,16 @@
 #include <string>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
 
 namespace bn {
 
 // --- transforms ----------------------------------------------------------------------------------
 
-/// Size of a line (W x 1 x 1), a picture (W x H x 1) or a volume (W x H x D), index (z * H + y) * W + x.
-struct Shape {
-  int width = 1;
-  int height = 1;
-  int depth = 1;
-  std::int64_t count() const { return std::int64_t{width} * height * depth; }
-  /// Frequencies kx = 0..W/2 that a transform of real data needs; the others are their conjugates.
-  int half_width() const { return width / 2 + 1; }
-  friend bool operator==(const Shape&, const Shape&) = default;
-};
+/// Frequencies kx = 0..W/2 that a transform of real data needs; the others are their conjugates. A line has
+/// the shape W x 1 x 1, a picture W x H x 1, a volume W x H x D.
+inline int half_width(const Shape& shape) { return shape.width / 2 + 1; }
 
 /// Sides of a shape: 1..65536, any size, primes too.
 inline constexpr int kMaxSpectrumSide = 65536;
@@ -44,7 +38,7 @@ inline constexpr int kMaxSpectrumSide = 65536;
 template <class T>
 struct HalfSpectrum {
   Shape shape;                          ///< of the real data
-  std::vector<std::complex<T>> values;  ///< index (kz * H + ky) * shape.half_width() + kx
+  std::vector<std::complex<T>> values;  ///< index (kz * H + ky) * half_width(shape) + kx
 };
 
 /// F(k) = sum over p of v(p) exp(-2 pi i (kx x / W + ky y / H + kz z / D)), in one, two or three
@@ -66,7 +60,7 @@ std::vector<T> inverse_transform(HalfSpectrum<T> spectrum, const Execution& exec
 /// (Parseval). A constant texture has P = 0 everywhere.
 struct PowerSpectrum {
   Shape shape;
-  std::vector<double> half;  ///< index (kz * H + ky) * shape.half_width() + kx
+  std::vector<double> half;  ///< index (kz * H + ky) * half_width(shape) + kx
   std::int64_t textures = 1;  ///< how many independent periodograms were averaged
   /// The power at any integer frequency index, negative ones included.
   double at(std::int64_t kx, std::int64_t ky = 0, std::int64_t kz = 0) const;

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "bn/core.h"
+#include "bn/execution.h"
+#include "bn/grid.h"
+#include "bn/version.h"
 
 namespace bn {
 
