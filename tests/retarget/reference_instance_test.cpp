@@ -1,7 +1,5 @@
-// Protects: the proven optima of the reference instance, a published mask (CC0, Christoph Peters).
+// Protects: the proven optima of the reference instance, a published mask (CC0, Christoph Peters, tests/data).
 #include <gtest/gtest.h>
-
-#include <filesystem>
 
 #include "bn/retarget.h"
 #include "bn/texture.h"
@@ -12,10 +10,7 @@ namespace {
 class ReferenceInstance : public testing::Test {
  protected:
   void SetUp() override {
-    const std::filesystem::path path = BN_REFERENCE_MASK;
-    if (!std::filesystem::exists(path))
-      GTEST_SKIP() << path << " is absent; it is not part of the repository";
-    levels_ = levels_of_channel(read_image(path).image, 0).value;
+    levels_ = levels_of_channel(read_image(BN_TEST_DATA "/peters_cc0_64_LDR_RGBA_0.png").image, 0).value;
   }
 
   void expect_optimum(const RetargetOptions& options, std::int64_t optimum) {

@@ -1,11 +1,9 @@
-// Christoph Peters' CC0 masks, where the checkout has them beside it.
+// Christoph Peters' masks (CC0), of tests/data.
 
 #pragma once
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +18,10 @@ struct Mask {
   double range;  ///< 256 or 65536
 };
 
-/// Nothing where the file is absent: skip the test then.
-inline std::optional<Mask> reference_mask(const std::string& name, int channel = 0) {
-  const std::filesystem::path path = std::filesystem::path(BN_SOURCE_DIR) / "../shared/reference" / name;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  const Image image = read_image(path).image;
+inline Mask reference_mask(const std::string& name, int channel = 0) {
+  const Image image = read_image(BN_TEST_DATA "/" + name).image;
   const Levels levels = levels_of_channel(image, channel);
-  return Mask{{levels.value.begin(), levels.value.end()},
+  return {{levels.value.begin(), levels.value.end()},
               {image.size.width, image.size.height},
               image.type == SampleType::u8 ? 256.0 : 65536.0};
 }
