@@ -1,8 +1,11 @@
 // bn_dither.glsl - which texel of a tile a pixel reads. Paste into your engine.
 //
 // Frame t dithers pixel p with mask texel p + t * d, wrapped: shift = (t * d) mod tile, made once a
-// frame on the host, each component in 0..tile-1. d is the step written into the mask's file; use it
-// as it is: an integer vector, never a real one truncated each frame.
+// frame on the host, each component in 0..tile-1. d is the step that the retarget tile was baked for; the
+// tile's file names it (`bn info`), the mask's does not. Use it as it is: an integer vector, never a real
+// one truncated each frame. Without a retarget tile choose any step of long orbit, (48, 37) on 64 x 64.
+//
+// bn_quantise.glsl has the dither itself.
 
 #ifndef BN_DITHER_GLSL
 #define BN_DITHER_GLSL

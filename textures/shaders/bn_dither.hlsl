@@ -1,4 +1,5 @@
-// bn_dither.hlsl - which texel of a tile a pixel reads. Paste into your engine. See bn_dither.glsl.
+// bn_dither.hlsl - which texel of a tile a pixel reads. Paste into your engine. See bn_dither.glsl,
+// and bn_quantise.hlsl for the dither itself.
 
 #ifndef BN_DITHER_HLSL
 #define BN_DITHER_HLSL
