@@ -73,7 +73,7 @@ void ProgressDisplay::set_style(ProgressStyle style) {
 }
 
 double ProgressDisplay::seconds_since_start() const {
-  return std::chrono::duration<double>(Clock::now() - started_).count();
+  return std::chrono::duration<double>(now_() - started_).count();
 }
 
 void ProgressDisplay::start(std::string_view task) {
@@ -81,9 +81,10 @@ void ProgressDisplay::start(std::string_view task) {
   wipe();
   task_ = task;
   running_ = true;
-  started_ = Clock::now();
-  next_report_ = started_ + (style_ == ProgressStyle::bar ? Clock::duration(kFirstPaint)
-                                                          : Clock::duration(kLineInterval));
+  started_ = now_();
+  next_report_ = started_;
+  if (style_ == ProgressStyle::bar) next_report_ += kFirstPaint;
+  if (style_ == ProgressStyle::plain) next_report_ += kLineInterval;
 }
 
 void ProgressDisplay::rename(std::string_view task) {
@@ -93,7 +94,7 @@ void ProgressDisplay::rename(std::string_view task) {
 
 void ProgressDisplay::update(double share, std::optional<double> seconds_left) {
   const std::lock_guard lock(mutex_);
-  const auto now = Clock::now();
+  const auto now = now_();
   if (!running_ || now < next_report_) return;
   next_report_ =
       now + (style_ == ProgressStyle::bar ? Clock::duration(kRepaint) : Clock::duration(kLineInterval));

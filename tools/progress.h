@@ -4,10 +4,12 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -20,6 +22,10 @@ enum class ProgressStyle { automatic, bar, plain, json, none };
 /// The only writer to stderr. Thread safe. Trouble there is never an error: progress is no result.
 class ProgressDisplay {
  public:
+  using Clock = std::chrono::steady_clock;
+
+  /// `now` is the clock; tests bring one of their own.
+  explicit ProgressDisplay(std::function<Clock::time_point()> now = Clock::now) : now_(std::move(now)) {}
   /// Until this is called only errors are shown. `automatic` is a bar where stderr is a terminal,
   /// plain otherwise.
   void set_style(ProgressStyle style);
@@ -28,7 +34,7 @@ class ProgressDisplay {
   void start(std::string_view task);
   /// The share of the task done, 0..1, and the time left where the caller knows better than the pace
   /// so far. Call it as often as you like: a bar repaints ten times a second at most, plain and JSON
-  /// lines come every few seconds.
+  /// lines come every few seconds; the first JSON line comes at once, and says that work has begun.
   void update(double share, std::optional<double> seconds_left = {});
   /// Another name for what the same bar counts.
   void rename(std::string_view task);
@@ -44,12 +50,12 @@ class ProgressDisplay {
   void error(const Error& error, int exit_code);
 
  private:
-  using Clock = std::chrono::steady_clock;
   double seconds_since_start() const;
   void paint(double share, std::optional<double> seconds_left);
   void write_json(const nlohmann::ordered_json& line);
   void wipe();
 
+  std::function<Clock::time_point()> now_;
   ProgressStyle style_ = ProgressStyle::none;
   std::mutex mutex_;
   std::string task_;

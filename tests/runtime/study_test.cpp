@@ -1,8 +1,10 @@
 // Protects: the measures against known answers; textures read back from files, and refused where step,
 // size, mask or pixels do not fit; the study end to end, whole files only.
 #include <gtest/gtest.h>
+#include <stdlib.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -15,8 +17,23 @@
 namespace bn {
 namespace {
 
+/// Of this process alone; removed at its end.
+struct Scratch {
+  Scratch() {
+    std::string name = (std::filesystem::temp_directory_path() / "bn-runtime-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
+    path = name;
+  }
+  ~Scratch() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  std::filesystem::path path;
+};
+
 std::filesystem::path fresh_folder(const std::string& name) {
-  const auto folder = std::filesystem::temp_directory_path() / ("bn_runtime_" + name);
+  static const Scratch scratch;
+  const auto folder = scratch.path / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -230,8 +247,7 @@ TEST(Study, WritesItsFilesWholeAndTheSameEachTime) {
 }
 
 TEST(Study, RefusesBeforeItWrites) {
-  const auto folder = std::filesystem::temp_directory_path() / "bn_runtime_never";
-  std::filesystem::remove_all(folder);
+  const auto folder = fresh_folder("refused") / "never";
   StudyOptions options;
   options.scenes = {"no-such-scene"};
   EXPECT_THROW(run_study(options, test::proven_textures(), nullptr, folder), Error);

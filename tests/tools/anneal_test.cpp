@@ -5,11 +5,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include <chrono>
 #include <csignal>
-#include <thread>
 
 #include "bn/anneal.h"
+#include "bn/bake.h"
+#include "bn/error.h"
 #include "process.h"
 #include "textures.h"
 
@@ -25,6 +25,25 @@ class AnnealVerb : public testing::Test {
   }
   ProcessResult run(const std::vector<std::string>& arguments) {
     return run_bn(arguments, {.folder = scratch_.path()});
+  }
+
+  /// Begins what arguments() begin, and stops it at its first report of progress, inside this process.
+  void leave_checkpoint(const std::string& proposals, const std::string& keys, const std::string& out) {
+    const std::string recipe =
+        "version = 1\n[[retarget]]\nname = \"r\"\nimage = \"m.png\"\nstep = [13, 29]\nmethod = \"anneal\"\n"
+        "proposals = " +
+        proposals + "\n" + keys + "outputs = [{ path = \"" + out + "\", kind = \"" +
+        (keys.empty() ? "tile" : "atlas") + "\" }]\n";
+    std::stop_source stop;
+    const auto stop_it = [&](const BakeEvent& event) {
+      if (std::holds_alternative<BakeProgress>(event)) stop.request_stop();
+    };
+    const ScratchFolder elsewhere;
+    EXPECT_THROW(bake(parse_recipe(recipe, "recipe", scratch_.path()), {.out_dir = elsewhere.path()},
+                      {.threads = 1, .stop = stop.get_token()}, stop_it),
+                 Error);
+    ASSERT_TRUE(std::filesystem::exists(elsewhere / (out + ".checkpoint")));
+    std::filesystem::copy(elsewhere / (out + ".checkpoint"), scratch_ / (out + ".checkpoint"));
   }
 
   ScratchFolder scratch_;
@@ -108,61 +127,57 @@ TEST_F(AnnealVerb, AnnealsWhatTheExactSolverCannot) {
   EXPECT_EQ(hash_of("again/o.png"), hash_of("o.png"));
 }
 
-TEST_F(AnnealVerb, AMotionSetGoesOnWhereItWasKilled) {
-  auto words = arguments("1.5e8", "atlas.png");
+// Stopping and going on. Where a run is when a signal arrives is the scheduler's choice, so a run that must
+// be finished later is stopped from inside, at its first report of progress; signals go to runs that nobody
+// could finish.
+
+TEST_F(AnnealVerb, AMotionSetGoesOnWhereItWasStopped) {
+  auto words = arguments("2e6", "atlas.png");
   words.insert(words.end(), {"--motion", "1"});
-  const auto checkpoint = scratch_ / "atlas.png.checkpoint";
-  for (int wait_ms = 100; wait_ms < 10000 && !std::filesystem::exists(checkpoint); wait_ms += wait_ms / 4) {
-    Process process(words, {.folder = scratch_.path()});
-    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
-    process.send(SIGINT);
-    ASSERT_NE(process.wait().exit_code, 0);
-  }
-  ASSERT_TRUE(std::filesystem::exists(checkpoint));
-  // A kill leaves the checkpoint that there was; a recipe goes on by the same file.
-  Process process(words, {.folder = scratch_.path()});
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  process.send(SIGKILL);
-  process.wait();
-  ASSERT_TRUE(std::filesystem::exists(checkpoint));
+  leave_checkpoint("2000000", "motion = 1\n", "atlas.png");
   ASSERT_EQ(run(words).exit_code, 0);
-  EXPECT_FALSE(std::filesystem::exists(checkpoint));
+  EXPECT_EQ(names_in(scratch_.path()), (std::vector<std::string>{"atlas.png", "m.png"}))
+      << "no checkpoint is left";
   const std::string resumed = read_bytes(scratch_ / "atlas.png");
   ASSERT_EQ(run(words).exit_code, 0);
   EXPECT_EQ(resumed, read_bytes(scratch_ / "atlas.png"));
 }
 
 TEST_F(AnnealVerb, ABudgetInSecondsIsKeptByItsCheckpoint) {
-  const auto checkpoint = scratch_ / "tile.png.checkpoint";
-  for (int wait_ms = 700; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms += wait_ms / 4) {
-    Process process(arguments("3s", "tile.png"), {.folder = scratch_.path()});
-    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
-    process.send(SIGINT);
-    ASSERT_NE(process.wait().exit_code, 0);
-  }
-  const std::int64_t proposals = checkpoint_proposals(read_bytes(checkpoint));
-  const auto result = run(arguments("3s", "tile.png"));
+  leave_checkpoint("30000000", "", "tile.png");
+  ASSERT_EQ(checkpoint_proposals(read_bytes(scratch_ / "tile.png.checkpoint")), 30'000'000);
+  // Measured anew, a thousand seconds would be far more.
+  const auto result = run(arguments("1000s", "tile.png"));
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(result.out).at("proposals"), proposals);
+  EXPECT_EQ(nlohmann::json::parse(result.out).at("proposals"), 30'000'000);
 }
 
 TEST_F(AnnealVerb, GoesOnWhereItWasStopped) {
-  const std::string budget = "1.5e9";
-  // A stop before the run began leaves no checkpoint: wait longer then.
-  const auto checkpoint = scratch_ / "tile.png.checkpoint";
-  for (int wait_ms = 50; wait_ms < 5000 && !std::filesystem::exists(checkpoint); wait_ms += wait_ms / 4) {
-    Process process(arguments(budget, "tile.png"), {.folder = scratch_.path()});
-    std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
-    process.send(SIGINT);
-    ASSERT_NE(process.wait().exit_code, 0);
-  }
-  ASSERT_TRUE(std::filesystem::exists(checkpoint));
-  ASSERT_EQ(run(arguments(budget, "tile.png")).exit_code, 0);
+  leave_checkpoint("30000000", "", "tile.png");
+  ASSERT_EQ(run(arguments("3e7", "tile.png")).exit_code, 0);
   EXPECT_EQ(names_in(scratch_.path()), (std::vector<std::string>{"m.png", "tile.png"}))
       << "no checkpoint is left";
   const std::string resumed = read_bytes(scratch_ / "tile.png");
-  ASSERT_EQ(run(arguments(budget, "tile.png")).exit_code, 0);
+  ASSERT_EQ(run(arguments("3e7", "tile.png")).exit_code, 0);
   EXPECT_EQ(resumed, read_bytes(scratch_ / "tile.png"));
+}
+
+TEST_F(AnnealVerb, CtrlCLeavesACheckpointAndAKillTheOneThatThereWas) {
+  auto words = arguments("1e11", "tile.png");
+  words.insert(words.end(), {"--progress", "json"});
+  const auto checkpoint = scratch_ / "tile.png.checkpoint";
+  const auto end_at_work = [&](int signal) {
+    Process process(words, {.folder = scratch_.path()});
+    EXPECT_TRUE(process.wait_for_message(R"("event":"progress")"));
+    process.send(signal);
+    return process.wait();
+  };
+  const auto stopped = end_at_work(SIGINT);
+  EXPECT_EQ(stopped.exit_code, 130) << stopped.err;
+  EXPECT_EQ(names_in(scratch_.path()), (std::vector<std::string>{"m.png", "tile.png.checkpoint"}));
+  EXPECT_EQ(checkpoint_proposals(read_bytes(checkpoint)), 100'000'000'000);
+  EXPECT_EQ(end_at_work(SIGKILL).signal, SIGKILL);
+  EXPECT_EQ(checkpoint_proposals(read_bytes(checkpoint)), 100'000'000'000) << "whole, if not the same";
 }
 
 TEST_F(AnnealVerb, BadSettingsAreNamedAndNothingIsOverwritten) {
@@ -194,17 +209,8 @@ TEST_F(AnnealVerb, BadSettingsAreNamedAndNothingIsOverwritten) {
   refused({}, "checkpoint");
   // Of another run, and of this one cut short.
   std::filesystem::remove(scratch_ / "tile.png.checkpoint");
-  const auto stopped = [&](const std::string& budget, const std::string& out) {
-    for (int wait_ms = 100; wait_ms < 10000 && !std::filesystem::exists(scratch_ / (out + ".checkpoint"));
-         wait_ms *= 2) {
-      Process process(arguments(budget, out), {.folder = scratch_.path()});
-      std::this_thread::sleep_for(std::chrono::milliseconds(wait_ms));
-      process.send(SIGINT);
-      process.wait();
-    }
-    return read_bytes(scratch_ / (out + ".checkpoint"));
-  };
-  const std::string bytes = stopped("2e9", "other.png");
+  leave_checkpoint("30000000", "", "other.png");
+  const std::string bytes = read_bytes(scratch_ / "other.png.checkpoint");
   write_bytes(scratch_ / "tile.png.checkpoint", bytes);
   refused({}, "another problem or other options");
   write_bytes(scratch_ / "tile.png.checkpoint", bytes.substr(0, bytes.size() / 2));

@@ -7,18 +7,21 @@
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <thread>
 
 #include "bn/error.h"
 
 namespace bn::tools {
 namespace {
 
+/// A clock that goes when it is told to.
+ProgressDisplay::Clock::time_point now{};
+ProgressDisplay::Clock::time_point clock() { return now; }
+
 template <class Act>
 std::string shown(ProgressStyle style, Act act) {
   testing::internal::CaptureStderr();
   {
-    ProgressDisplay display;
+    ProgressDisplay display(clock);
     display.set_style(style);
     act(display);
   }
@@ -38,6 +41,8 @@ TEST(Progress, ShortWorkIsSilentForPeople) {
   EXPECT_EQ(shown(ProgressStyle::bar, work), "");
   EXPECT_EQ(shown(ProgressStyle::none, work), "");
   EXPECT_EQ(shown(ProgressStyle::automatic, work), "") << "stderr is no terminal here";
+  // A program hears at once that work has begun.
+  EXPECT_NE(shown(ProgressStyle::json, work).find(R"("done":0.1)"), std::string::npos);
 }
 
 TEST(Progress, NotesAreForPeopleWhoWantThem) {
@@ -80,7 +85,8 @@ TEST(Progress, JsonLinesParse) {
 TEST(Progress, TheBarFitsItsLineAndIsWiped) {
   const std::string text = shown(ProgressStyle::bar, [](ProgressDisplay& display) {
     display.start(std::string(200, 'x'));
-    std::this_thread::sleep_for(std::chrono::milliseconds(250));
+    display.update(0.4, 70.0);
+    now += std::chrono::milliseconds(201);
     display.update(0.5, 65.0);
     display.finish();
   });
