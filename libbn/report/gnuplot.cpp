@@ -45,7 +45,12 @@ std::string draw_figures(const std::filesystem::path& folder, std::string_view s
   const std::string whole =
       fmt::format("# gnuplot {}, in this folder.\n{}\n{}", kFigureScript, report::kLook, script);
   write_text_file(folder / kFigureScript, whole);
-  return report::run_gnuplot(whole, folder, execution.stop).failure;
+  for (const std::string_view page : {"dark = 0\n", "dark = 1\n"}) {
+    const std::string failure =
+        report::run_gnuplot(std::string(page) + whole, folder, execution.stop).failure;
+    if (!failure.empty()) return failure;
+  }
+  return "";
 }
 
 }  // namespace bn

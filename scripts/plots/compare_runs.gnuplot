@@ -2,7 +2,6 @@
 #   runs: their names, apart by spaces; trace_NAME.csv has the columns that AnnealTrace::csv() names
 file(i) = "trace_".word(runs, i).".csv"
 style(i) = (i - 1) % 7 + 1
-set xlabel "proposals, 10^9"
 set xrange [0:*] noextend
 set yrange [*:*] noextend
 set logscale y
@@ -23,25 +22,33 @@ do for [column=3:7] {
   }
 }
 
+longest = 0
+do for [i=1:words(runs)] {
+  stats file(i) skip 1 using 1 nooutput
+  if (STATS_max > longest) { longest = STATS_max }
+}
+scale = 10.0**exponent(longest)
+set xlabel counted("proposals", longest)
+
 # From the second point on: the first is the start.
 if (largest[4] > 0) {
-set output "energy.svg"
-set title "Energy during the runs (dashed: proven optimum)"
-set ylabel "energy"
+set output figure("energy")
+set title "Energy during the runs"
+set ylabel "energy (logarithmic)"
 set yrange [least_energy/1.1:*] noextend
-plot for [i=1:words(runs)] file(i) skip 2 using ($1/1e9):4 with lines ls style(i) title word(runs, i), \
-  for [i=1:words(runs)] file(i) skip 2 using ($1/1e9):($6 > 0 ? $6 : NaN) with lines ls style(i) dt 2 notitle
+plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):4 with lines ls style(i) title word(runs, i), \
+  for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($6 > 0 ? $6 : NaN) with lines ls 8 title i == 1 ? "proven optimum" : ""
 set yrange [*:*] noextend
 }
 if (largest[3] > 0) {
-set output "temperature.svg"
+set output figure("temperature")
 set title "Temperature during the runs"
-set ylabel "temperature, levels"
-plot for [i=1:words(runs)] file(i) skip 2 using ($1/1e9):($3 > 0 ? $3 : NaN) with lines ls style(i) title word(runs, i)
+set ylabel "temperature, levels (logarithmic)"
+plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($3 > 0 ? $3 : NaN) with lines ls style(i) title word(runs, i)
 }
 if (largest[7] > 0) {
-set output "acceptance.svg"
+set output figure("acceptance")
 set title "Accepted share of all proposals"
-set ylabel "accepted share"
-plot for [i=1:words(runs)] file(i) skip 2 using ($1/1e9):($7 > 0 ? $7 : NaN) with lines ls style(i) title word(runs, i)
+set ylabel "accepted share (logarithmic)"
+plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($7 > 0 ? $7 : NaN) with lines ls style(i) title word(runs, i)
 }

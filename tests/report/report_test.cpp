@@ -71,7 +71,7 @@ TEST(Child, PassesMuchInputAndOutputAndReportsFailure) {
 
 TEST(Figures, StandAsFilesOrSayWhyNot) {
   TemporaryFolder folder;
-  const std::string script = "set output 'a.svg'\nplot x linestyle 1\n";
+  const std::string script = "set output figure('a')\nplot x linestyle 1\n";
   const std::string path = std::getenv("PATH");
   ::setenv("PATH", "", 1);
   const std::string failure = draw_figures(folder.path(), script);
@@ -82,7 +82,10 @@ TEST(Figures, StandAsFilesOrSayWhyNot) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.svg"));
   if (!find_program("gnuplot")) GTEST_SKIP() << "gnuplot is not installed";
   EXPECT_EQ(draw_figures(folder.path(), script), "");
-  EXPECT_NE(bytes_of(folder / "a.svg").find("</svg>"), std::string::npos);
+  const std::string light = bytes_of(folder / "a.svg"), dark = bytes_of(folder / "a-dark.svg");
+  EXPECT_NE(light.find("</svg>"), std::string::npos);
+  EXPECT_NE(dark.find("</svg>"), std::string::npos);
+  EXPECT_NE(light, dark);
   EXPECT_NE(draw_figures(folder.path(), "plot nothing").find("nothing"), std::string::npos);
   std::stop_source stop;
   stop.request_stop();

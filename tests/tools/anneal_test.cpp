@@ -238,7 +238,8 @@ TEST_F(AnnealVerb, TheStudyMakesItsFigures) {
   ASSERT_EQ(result.exit_code, 0) << result.err;
   if (result.err.find("gnuplot is not installed") == std::string::npos) {
     EXPECT_EQ(result.err.find("no figures"), std::string::npos) << result.err;
-    EXPECT_NE(read_bytes(scratch_ / "study/error_against_time.svg").find("kirkpatrick"), std::string::npos);
+    for (const char* file : {"study/error_against_time.svg", "study/error_against_time-dark.svg"})
+      EXPECT_NE(read_bytes(scratch_ / file).find("kirkpatrick"), std::string::npos) << file;
   }
 
   // What stands is kept; another subject is not mixed in.

@@ -62,7 +62,8 @@ void write_study_report(const std::filesystem::path& study, const std::filesyste
 inline constexpr const char* kFigureScript = "figures.gp";
 
 /// Writes `script` behind the common look of figures (SVG; line styles 1..7) into `folder` as kFigureScript
-/// and has gnuplot run it there. Returns why there are no figures, "gnuplot is not installed ..." for one, or
+/// and has gnuplot run it there, twice: `set output figure("x")` makes x.svg for light pages and x-dark.svg
+/// for dark ones. Returns why there are no figures, "gnuplot is not installed ..." for one, or
 /// nothing if they stand: data without figures are no error. Ended after 60 s. Names in `script` are the
 /// caller's to quote. Errors: io, cancelled.
 std::string draw_figures(const std::filesystem::path& folder, std::string_view script,
