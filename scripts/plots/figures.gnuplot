@@ -10,14 +10,14 @@ untried = dark ? "#2a2e34" : "#e4e4e4"
 set datafile separator ","
 set encoding utf8
 set terminal svg size 760,480 dynamic enhanced font "sans-serif,13" background paper
-# One colour and one sign a schedule, whichever others are shown.
-hues = dark ? "#56b4e9 #f0803c #2fbf93 #d994bb #e6b800 #a6d8f5 #dfe2e8 #8a919c" \
-            : "#0072b2 #d55e00 #009e73 #cc79a7 #b98900 #56b4e9 #000000 #888888"
-signs = "7 5 9 11 13 6 4 0"
+# One colour and one sign a schedule, whichever others are shown; the colours of bn/palette.h, and lighter ones for dark pages.
+hues = dark ? "#56b4e9 #f0803c #2fbf93 #d994bb #e6b800 #a6d8f5 #9aa1ab" \
+            : "#0072b2 #d55e00 #009e73 #cc79a7 #e69f00 #56b4e9 #888888"
+signs = "7 5 9 11 13 6 4"
 do for [i=1:7] { set style line i lc rgb word(hues, i) lw 2 pt int(word(signs, i)) ps 0.6 }
 # What is not measured: bounds, optima, ideals.
-set style line 8 lc rgb word(hues, 8) lw 2 dt 2
-all_schedules = "exponential kirkpatrick linear inverse hajek greedy constant"
+set style line 8 lc rgb ink lw 1.5 dt 2
+all_schedules = "exponential kirkpatrick linear inverse hajek constant greedy"
 place_in_list(name) = sum [i=1:words(all_schedules)] (word(all_schedules, i) eq name ? i : 0)
 style_of(name) = place_in_list(name) > 0 ? place_in_list(name) : 7
 set grid lt 1 lw 1 lc rgb faint
