@@ -114,8 +114,8 @@ Verb validate_verb() {
       "the temporal algorithm: sort, sort and retarget, and retarget with the tile for the picture's motion. "
       "The "
       "errors against a converged picture, their spectra and the cost of every pass go into CSV files, "
-      "pictures "
-      "and report.md.\n\n"
+      "pictures, "
+      "a page (report.html) and its tables alone (report.md).\n\n"
       "The Vulkan device is Mesa's lavapipe unless --device names another: gpu, a part of a device's name, "
       "or cpu "
       "for the plain renderer without Vulkan.";

@@ -33,7 +33,7 @@ struct VoidAndClusterOptions {
 /// Errors: invalid_input (an option outside its range), over_limit (memory), cancelled.
 /// Threads: execution.threads, useful from 1024 pixels a side on; a stop is heeded within
 /// milliseconds. Cost at sigma 1.9 on one core: about 120 ns a pixel at 256² and 512², 165 ns at
-/// 4096² and above (9 ms for 256², 0.14 s for 1024², 2.7 s for 4096²); it grows with the square of
+/// 4096² and above (8 ms for 256², 0.14 s for 1024², 2.6 s for 4096²); it grows with the square of
 /// sigma. Memory: 12 bytes a pixel.
 Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const Execution& execution = {});
 
