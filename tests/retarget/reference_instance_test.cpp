@@ -1,4 +1,5 @@
-// Protects: the proven optima of the reference instance, a published mask (CC0, Christoph Peters, tests/data).
+// Protects: the proven optima of the reference instance, a published mask (CC0, Christoph Peters,
+// tests/data).
 #include <gtest/gtest.h>
 
 #include "bn/retarget.h"

@@ -22,8 +22,8 @@ inline Mask reference_mask(const std::string& name, int channel = 0) {
   const Image image = read_image(BN_TEST_DATA "/" + name).image;
   const Levels levels = levels_of_channel(image, channel);
   return {{levels.value.begin(), levels.value.end()},
-              {image.size.width, image.size.height},
-              image.type == SampleType::u8 ? 256.0 : 65536.0};
+          {image.size.width, image.size.height},
+          image.type == SampleType::u8 ? 256.0 : 65536.0};
 }
 
 }  // namespace bn::test

@@ -281,9 +281,7 @@ TEST(ForeignPng, CompressedMetadataAfterThePictureAreFound) {
   EXPECT_EQ(read_image(folder / "a.png").metadata, full_metadata());
 }
 
-std::filesystem::path reference(const char* name) {
-  return std::filesystem::path(BN_TEST_DATA) / name;
-}
+std::filesystem::path reference(const char* name) { return std::filesystem::path(BN_TEST_DATA) / name; }
 
 TEST(Reference, EveryChannelOfAnRgbaMaskIsFlat) {
   const FileContent content = read_image(reference("peters_cc0_64_LDR_RGBA_0.png"));
