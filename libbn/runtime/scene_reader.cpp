@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <toml++/toml.h>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -16,6 +15,7 @@
 
 #include "bn/error.h"
 #include "bn/texture.h"
+#include "core/toml_document.h"
 #include "runtime/scene.h"
 
 namespace bn {
@@ -269,17 +269,9 @@ std::vector<std::string> shipped_scenes() {
 }
 
 Scene read_scene(std::string_view text, const std::string& where) {
-  try {
-    Scene scene = Reader(where).read(toml::parse(text, where));
-    check_scene(scene);
-    return scene;
-  } catch (const toml::parse_error& error) {
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = std::string(error.description()),
-                 .where = fmt::format("{}:{}", where, error.source().begin.line),
-                 .limit = "TOML",
-                 .remedy = ""});
-  }
+  Scene scene = Reader(where).read(document::parse_toml(text, where));
+  check_scene(scene);
+  return scene;
 }
 
 Scene load_scene(const std::string& name_or_path) {

@@ -1,4 +1,4 @@
-#include "bake/mistakes.h"
+#include "core/diagnostics.h"
 
 #include <fmt/format.h>
 
@@ -6,9 +6,9 @@
 
 #include "bn/error.h"
 
-namespace bn {
+namespace bn::document {
 
-void Mistakes::add(int line, std::string what, std::string limit, std::string remedy) {
+void Diagnostics::add(int line, std::string what, std::string limit, std::string remedy) {
   found_.emplace_back(line, ErrorInfo{.code = ErrorCode::invalid_input,
                                       .what = std::move(what),
                                       .where = line > 0 ? fmt::format("{}:{}", file_, line) : file_,
@@ -16,7 +16,7 @@ void Mistakes::add(int line, std::string what, std::string limit, std::string re
                                       .remedy = std::move(remedy)});
 }
 
-void Mistakes::throw_if_any() const {
+void Diagnostics::throw_if_any() const {
   if (found_.empty()) return;
   auto ordered = found_;
   std::stable_sort(ordered.begin(), ordered.end(), [](auto& a, auto& b) { return a.first < b.first; });
@@ -31,4 +31,4 @@ void Mistakes::throw_if_any() const {
   throw Error({.code = ErrorCode::invalid_input, .what = all, .where = file_, .limit = "", .remedy = ""});
 }
 
-}  // namespace bn
+}  // namespace bn::document

@@ -2,13 +2,13 @@
 //   [.a]       it takes for granted that a table header begins with a key,
 //   a = [ }    that a bracket closes what was opened,
 //   key ä      and that a letter such as ä, outside strings and comments, never comes up.
-// A recipe needs none of them, nor strings of several lines. This scan of lines, strings, comments and
-// brackets refuses them, with the line. It need be right only up to the first mistake, because the
-// parser is not called after one.
+// Recipes and scenes need none of them, nor strings of several lines. This scan of lines, strings, comments
+// and brackets refuses them, with the line. It need be right only up to the first mistake, because the parser
+// is not called after one.
 
-#include "bake/toml_check.h"
+#include "core/toml_check.h"
 
-namespace bn {
+namespace bn::document {
 namespace {
 
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
@@ -59,7 +59,7 @@ std::string_view problem_of(std::string_view line, std::string& open) {
 
 }  // namespace
 
-void check_toml(std::string_view text, Mistakes& mistakes) {
+void check_toml(std::string_view text, Diagnostics& diagnostics) {
   if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
   std::string open;
   for (int line = 1; !text.empty(); ++line) {
@@ -67,8 +67,8 @@ void check_toml(std::string_view text, Mistakes& mistakes) {
     text.remove_prefix(here.size() < text.size() ? here.size() + 1 : here.size());
     const std::string_view problem = problem_of(here, open);
     if (!problem.empty())
-      mistakes.add(line, std::string(problem), "TOML 1.0, without strings of several lines");
+      diagnostics.add(line, std::string(problem), "TOML 1.0, without strings of several lines");
   }
 }
 
-}  // namespace bn
+}  // namespace bn::document

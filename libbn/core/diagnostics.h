@@ -1,4 +1,4 @@
-// Collects everything that is wrong with a recipe, so that a user sees it all at once.
+// Collects everything that is wrong with a text file, so that a user sees it all at once.
 
 #pragma once
 
@@ -8,12 +8,12 @@
 
 #include "bn/error.h"
 
-namespace bn {
+namespace bn::document {
 
-/// What is wrong with one recipe.
-class Mistakes {
+/// What is wrong with one file.
+class Diagnostics {
  public:
-  explicit Mistakes(std::string file) : file_(std::move(file)) {}
+  explicit Diagnostics(std::string file) : file_(std::move(file)) {}
   /// `line` 0: of no particular line.
   void add(int line, std::string what, std::string limit = "", std::string remedy = "");
   /// Throws one Error: the mistake itself, or all of them, one to a line, in the order of the lines.
@@ -24,4 +24,4 @@ class Mistakes {
   std::vector<std::pair<int, ErrorInfo>> found_;
 };
 
-}  // namespace bn
+}  // namespace bn::document
