@@ -20,12 +20,12 @@ constexpr int kSpectrumShown = 288;  ///< pixels a side: four pictures fill a ro
 
 RetargetOptions options_of(const Metadata& metadata, Offset motion) {
   RetargetOptions options;
-  options.step = *metadata.step;
+  options.step = *metadata.facts.get<Offset>("step");
   options.motion = motion;
-  options.radius = *metadata.radius;
-  options.reach = metadata.reach == "euclidean" ? Reach::euclidean : Reach::chebyshev;
-  options.metric = metadata.metric == "l2" ? Metric::l2 : Metric::l1;
-  options.wrap = metadata.wrap.value_or(true);
+  options.radius = *metadata.facts.get<int>("radius");
+  options.reach = metadata.facts.get<std::string>("reach") == "euclidean" ? Reach::euclidean : Reach::chebyshev;
+  options.metric = metadata.facts.get<std::string>("metric") == "l2" ? Metric::l2 : Metric::l1;
+  options.wrap = metadata.facts.get<bool>("wrap").value_or(true);
   return options;
 }
 
@@ -99,12 +99,12 @@ std::vector<std::vector<double>> repeated(const Grid<std::int32_t>& levels, cons
 
 /// How far pixels go, beyond the motion, as the reach measures it.
 Plot moves_plot(const RetargetSet& set, const RetargetSet::Tile& tile, std::string file_name) {
-  const int radius = *set.metadata.radius;
+  const int radius = *set.metadata.facts.get<int>("radius");
   std::vector<std::int64_t> counts(static_cast<std::size_t>(radius) + 1);
   for (const Offset r : tile.move) {
     const int x = std::abs(r.x - tile.record.motion.x), y = std::abs(r.y - tile.record.motion.y);
     const int length =
-        set.metadata.reach == "euclidean" ? static_cast<int>(std::lround(std::hypot(x, y))) : std::max(x, y);
+        set.metadata.facts.get<std::string>("reach") == "euclidean" ? static_cast<int>(std::lround(std::hypot(x, y))) : std::max(x, y);
     ++counts[static_cast<std::size_t>(std::min(length, radius))];
   }
   Curve curve{"pixels", Role::texture, 0, {}, {}};
@@ -209,23 +209,23 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
     mean_length += std::hypot(r.x - tile.record.motion.x, r.y - tile.record.motion.y);
   }
   mean_length /= static_cast<double>(tile.move.count());
-  gallery += figure({.image = moves_image(tile.move, tile.record.motion, *metadata.radius),
+  gallery += figure({.image = moves_image(tile.move, tile.record.motion, *metadata.facts.get<int>("radius")),
                      .scale = scale_for(size.width, 256),
                      .title = "The moves.",
                      .caption = fmt::format("Direction as hue, length as strength; on average {} pixels.",
                                             number(mean_length))});
-  const Image legend = moves_legend(*metadata.radius);
+  const Image legend = moves_legend(*metadata.facts.get<int>("radius"));
   gallery += figure({.image = legend,
                      .scale = scale_for(legend.size.width, 128),
                      .title = "Their legend.",
                      .caption = fmt::format("The colour of each move within {} pixels; the middle stays.",
-                                            *metadata.radius)});
+                                            *metadata.facts.get<int>("radius"))});
   plots += add_plot(moves_plot(set, tile, file_name + "-moves"), "Lengths of the moves",
                     fmt::format("Share of the pixels, by {} length, motion taken out.",
-                                metadata.reach == "euclidean" ? "Euclidean" : "Chebyshev"));
+                                metadata.facts.get<std::string>("reach") == "euclidean" ? "Euclidean" : "Chebyshev"));
 
   if (set.levels) {
-    const Grid<double> residual = residual_of(*set.levels, tile.move, *metadata.step);
+    const Grid<double> residual = residual_of(*set.levels, tile.move, *metadata.facts.get<Offset>("step"));
     double largest = 0.0, sum = 0.0;
     for (const double v : residual) {
       largest = std::max(largest, std::abs(v));
@@ -260,7 +260,7 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
 
     Plot dither = power_plot(file_name + "-dither", reference);
     const std::vector<double> mask(set.levels->begin(), set.levels->end());
-    auto screens = repeated(*set.levels, tile.move, *metadata.step);
+    auto screens = repeated(*set.levels, tile.move, *metadata.facts.get<Offset>("step"));
     screens.insert(screens.begin(), mask);
     for (std::size_t i = 0; i < screens.size(); ++i) {
       const PowerSpectrum power = analyse(screens[i], shape, 0.0, 1.0, execution).power;
@@ -289,14 +289,14 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
   const auto of_all = [&](int part) { return fmt::format("{} of {} {}", part, count, badge(part == count)); };
   std::string facts;
   facts +=
-      fact("mask", set.mask_name.empty() ? escaped(metadata.source.value_or("–")) : escaped(set.mask_name));
-  facts += fact("step, orbit", fmt::format("({}, {}), {} frames", metadata.step->x, metadata.step->y,
-                                           orbit_length(size, *metadata.step)));
+      fact("mask", set.mask_name.empty() ? escaped(metadata.facts.get<std::string>("source").value_or("–")) : escaped(set.mask_name));
+  facts += fact("step, orbit", fmt::format("({}, {}), {} frames", metadata.facts.get<Offset>("step")->x, metadata.facts.get<Offset>("step")->y,
+                                           orbit_length(size, *metadata.facts.get<Offset>("step"))));
   facts +=
       fact("radius, reach, metric, border",
-           fmt::format("{} px, {}, {}, {}", *metadata.radius, escaped(metadata.reach.value_or("chebyshev")),
-                       escaped(metadata.metric.value_or("l1")),
-                       metadata.wrap.value_or(true) ? "wraps" : "closed"));
+           fmt::format("{} px, {}, {}, {}", *metadata.facts.get<int>("radius"), escaped(metadata.facts.get<std::string>("reach").value_or("chebyshev")),
+                       escaped(metadata.facts.get<std::string>("metric").value_or("l1")),
+                       metadata.facts.get<bool>("wrap").value_or(true) ? "wraps" : "closed"));
   facts += fact("energy of the tile shown",
                 fmt::format("{} ({} of the {} without moves)", whole(record.energy),
                             start > 0.0 ? percent(static_cast<double>(record.energy) / start) : "–",

@@ -116,27 +116,27 @@ class Collector {
   /// Gives every set the levels of its mask.
   void find_masks() {
     for (RetargetSet& set : collection_.retarget_sets) {
-      const std::string hash = set.metadata.source_hash.value_or("");
+      const std::string hash = set.metadata.facts.get<std::string>("source_hash").value_or("");
       const auto in_set = images_.find(hash);
       std::optional<Image> image;
       if (in_set != images_.end()) {
         image = in_set->second.second;
         set.mask_name = in_set->second.first;
-      } else if (set.metadata.source) {
-        const fs::path relative(*set.metadata.source);
+      } else if (set.metadata.facts.get<std::string>("source")) {
+        const fs::path relative(*set.metadata.facts.get<std::string>("source"));
         const bool below =
             relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
         try {
           if (below) {
             FileContent content = read_image(folder_of_.at(set.name) / relative, execution_);
             if (pixel_hash(content.image) == hash) image = std::move(content.image);
-            set.mask_name = *set.metadata.source;
+            set.mask_name = *set.metadata.facts.get<std::string>("source");
           }
         } catch (const Error& error) {
           if (error.code() == ErrorCode::cancelled) throw;
         }
       }
-      const int channel = set.metadata.source_channel.value_or(0);
+      const int channel = set.metadata.facts.get<int>("source_channel").value_or(0);
       if (image && channel < image->channels && image->size == set.tiles.front().move.size()) {
         set.levels = levels_of_channel(*image, channel).value;
       } else {
@@ -202,8 +202,8 @@ class Collector {
     const Metadata& metadata = *content.metadata;
     std::vector<RetargetSet::Tile> tiles;
     const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(metadata.tiles.size()))));
-    if (metadata.tiles.empty() || !metadata.step || !metadata.radius || *metadata.radius < 1 ||
-        *metadata.radius > 32 ||
+    if (metadata.tiles.empty() || !metadata.facts.get<Offset>("step") || !metadata.facts.get<int>("radius") || *metadata.facts.get<int>("radius") < 1 ||
+        *metadata.facts.get<int>("radius") > 32 ||
         (metadata.kind == "retarget-atlas" && side * side != static_cast<int>(metadata.tiles.size())) ||
         (metadata.kind == "retarget-tile" && metadata.tiles.size() != 1) ||
         content.image.size.width % side != 0 || content.image.size.height % side != 0) {
@@ -213,13 +213,13 @@ class Collector {
     for (std::size_t i = 0; i < metadata.tiles.size(); ++i) {
       Grid<Offset> move =
           decode_moves(side == 1 ? content.image : atlas_tile(content.image, size, static_cast<int>(i)));
-      if (metadata.form == "gather") move = invert_moves(move);
+      if (metadata.facts.get<std::string>("form") == "gather") move = invert_moves(move);
       tiles.push_back({metadata.tiles[i], std::move(move)});
     }
     const std::string key =
-        fmt::format("{} {} {},{} {} {} {} {} {}x{}", metadata.source_hash.value_or(""),
-                    metadata.source_channel.value_or(0), metadata.step->x, metadata.step->y, *metadata.radius,
-                    metadata.reach.value_or(""), metadata.metric.value_or(""), metadata.wrap.value_or(true),
+        fmt::format("{} {} {},{} {} {} {} {} {}x{}", metadata.facts.get<std::string>("source_hash").value_or(""),
+                    metadata.facts.get<int>("source_channel").value_or(0), metadata.facts.get<Offset>("step")->x, metadata.facts.get<Offset>("step")->y, *metadata.facts.get<int>("radius"),
+                    metadata.facts.get<std::string>("reach").value_or(""), metadata.facts.get<std::string>("metric").value_or(""), metadata.facts.get<bool>("wrap").value_or(true),
                     size.width, size.height);
     auto place = set_of_.find(key);
     if (place == set_of_.end()) {

@@ -55,7 +55,7 @@ std::string about(const Texture& texture) {
   std::string line = fmt::format("{} pixels, {}", size_of(texture.shape), name_of(texture.type));
   if (texture.metadata) {
     if (!texture.metadata->algorithm.empty()) line += ", " + escaped(texture.metadata->algorithm);
-    if (texture.metadata->seed) line += fmt::format(", seed {}", *texture.metadata->seed);
+    if (texture.metadata->facts.get<std::int64_t>("seed")) line += fmt::format(", seed {}", *texture.metadata->facts.get<std::int64_t>("seed"));
   }
   if (texture.seconds) line += fmt::format(", made in {} s", number(*texture.seconds));
   std::string html = fmt::format("<p class=\"about\">{}.", line);

@@ -72,19 +72,21 @@ TemporalTextures read_temporal_textures(const std::filesystem::path& folder, std
                  .limit = std::move(limit),
                  .remedy = std::move(remedy)});
   };
-  if (!said.step || said.tiles.empty()) refuse("no step or no tiles recorded", "", "bake it again");
-  if (said.source_hash && *said.source_hash != mask.metadata->pixel_hash) {
-    refuse("baked for another mask than " + mask_path.string(), *said.source_hash, "take both from one bake");
+  const auto said_step = said.facts.get<Offset>("step");
+  const auto said_hash = said.facts.get<std::string>("source_hash");
+  if (!said_step || said.tiles.empty()) refuse("no step or no tiles recorded", "", "bake it again");
+  if (said_hash && *said_hash != mask.metadata->pixel_hash) {
+    refuse("baked for another mask than " + mask_path.string(), *said_hash, "take both from one bake");
   }
-  if (step && !(*step == *said.step) && !unsafe) {
+  if (step && !(*step == *said_step) && !unsafe) {
     refuse(fmt::format("step ({}, {}) asked for, but the tiles carry seeds from one frame's mask to the next "
                        "by ({}, {})",
-                       step->x, step->y, said.step->x, said.step->y),
-           fmt::format("({}, {})", said.step->x, said.step->y),
+                       step->x, step->y, said_step->x, said_step->y),
+           fmt::format("({}, {})", said_step->x, said_step->y),
            "leave --step out, or see with --unsafe what it costs");
   }
   const Grid<std::int32_t> levels = levels_of_channel(mask.image, 0).value;
-  TemporalTextures textures{.mask = levels, .step = step.value_or(*said.step)};
+  TemporalTextures textures{.mask = levels, .step = step.value_or(*said_step)};
   const auto count = said.tiles.size();
   while ((2 * textures.motion_range + 1) * (2 * textures.motion_range + 1) < static_cast<int>(count)) {
     ++textures.motion_range;
@@ -100,7 +102,7 @@ TemporalTextures read_temporal_textures(const std::filesystem::path& folder, std
   }
   for (int i = 0; i < static_cast<int>(count); ++i) {
     Grid<Offset> move = decode_moves(atlas_tile(moves.image, levels.size(), i));
-    textures.moves.push_back(said.form == "gather" ? invert_moves(move) : std::move(move));
+    textures.moves.push_back(said.facts.get<std::string>("form") == "gather" ? invert_moves(move) : std::move(move));
   }
   textures.check();
   return textures;

@@ -70,6 +70,10 @@ Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type) {
   return image;
 }
 
+Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type) {
+  return encode_mask(ranks[0], type);
+}
+
 Image encode_moves(const Grid<Offset>& move) {
   Image image = blank(move.size(), 3, SampleType::u8, "encode_moves");
   const auto encode = [](int component) {

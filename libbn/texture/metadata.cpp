@@ -1,12 +1,15 @@
 // Metadata as one JSON object, in a fixed order of members, pure ASCII and without line breaks: so it
 // survives every container (PNG text is Latin-1, TIFF text ends at a zero byte) and equal metadata
-// gives equal bytes. The schema is in docs/files.md. Reading is strict: an unknown member, a wrong
-// type or a number out of range is an error, since what is skipped silently cannot be verified.
+// gives equal bytes. The schema is in docs/files.md. Reading is strict and keeps everything: members
+// that only some kinds of texture have become facts, which verification compares with the recipe.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <variant>
 
 #include "bn/texture.h"
 #include "texture/error.h"
@@ -41,13 +44,6 @@ class Members {
     return value->get<std::string>();
   }
 
-  std::optional<bool> flag(const char* key) {
-    const auto value = take(key);
-    if (!value) return std::nullopt;
-    if (!value->is_boolean()) refuse(key, "true or false");
-    return value->get<bool>();
-  }
-
   template <class Integer>
   std::optional<Integer> integer(const char* key) {
     const auto value = take(key);
@@ -73,7 +69,39 @@ class Members {
     texture::fail_input(where_, fmt::format("unknown member '{}'", object_.begin().key()));
   }
 
+  /// All that nobody took, in its order.
+  Facts facts() const {
+    constexpr std::size_t kMostFacts = 64;
+    if (object_.size() > kMostFacts) {
+      texture::fail_input(where_, fmt::format("{} members that are not known", object_.size()),
+                          fmt::format("at most {}", kMostFacts));
+    }
+    Facts facts;
+    for (const auto& [key, value] : object_.items()) facts.add(checked_key(key), value_of(value, key));
+    return facts;
+  }
+
  private:
+  std::string checked_key(const std::string& key) const {
+    const bool sound = !key.empty() && key.size() <= 40 && std::all_of(key.begin(), key.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    });
+    if (!sound) texture::fail_input(where_, "a member with an unfit name", "1..40 of a..z, 0..9, '_'");
+    return key;
+  }
+
+  Value value_of(const ordered_json& value, const std::string& key) const {
+    if (value.is_boolean()) return value.get<bool>();
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number_float()) return value.get<double>();
+    if (value.is_number()) return to_integer<std::int64_t>(value, key.c_str());
+    constexpr std::size_t kLongest = 1024;
+    if (!value.is_array() || value.size() > kLongest) refuse(key.c_str(), "a truth, number, text or list");
+    std::vector<std::int64_t> list;
+    for (const ordered_json& element : value) list.push_back(to_integer<std::int64_t>(element, key.c_str()));
+    return list;
+  }
+
   [[noreturn]] void refuse(const char* key, std::string_view wanted) const {
     texture::fail_input(where_, fmt::format("member '{}' is not {}", key, wanted));
   }
@@ -113,16 +141,6 @@ Metadata metadata_from(ordered_json object) {
       members.required("algorithm_version", members.integer<int>("algorithm_version"));
   metadata.kind = members.required("kind", members.text("kind"));
   metadata.recipe = members.required("recipe", members.text("recipe"));
-  metadata.seed = members.integer<std::uint64_t>("seed");
-  metadata.step = members.offset("step");
-  metadata.radius = members.integer<int>("radius");
-  metadata.reach = members.text("reach");
-  metadata.metric = members.text("metric");
-  metadata.wrap = members.flag("wrap");
-  metadata.form = members.text("form");
-  metadata.source = members.text("source");
-  metadata.source_channel = members.integer<int>("source_channel");
-  metadata.source_hash = members.text("source_hash");
   if (auto tiles = members.take("tiles")) {
     if (!tiles->is_array()) texture::fail_input(kWhere, "member 'tiles' is not an array");
     for (std::size_t i = 0; i < tiles->size(); ++i) {
@@ -136,7 +154,7 @@ Metadata metadata_from(ordered_json object) {
     }
   }
   metadata.pixel_hash = members.required("pixel_hash", members.text("pixel_hash"));
-  members.finish();
+  metadata.facts = members.facts();
   return metadata;
 }
 
@@ -171,16 +189,13 @@ std::string to_json(const Metadata& metadata, int indent) {
   object["algorithm_version"] = metadata.algorithm_version;
   object["kind"] = metadata.kind;
   object["recipe"] = metadata.recipe;
-  if (metadata.seed) object["seed"] = *metadata.seed;
-  if (metadata.step) object["step"] = pair_of(*metadata.step);
-  if (metadata.radius) object["radius"] = *metadata.radius;
-  if (metadata.reach) object["reach"] = *metadata.reach;
-  if (metadata.metric) object["metric"] = *metadata.metric;
-  if (metadata.wrap) object["wrap"] = *metadata.wrap;
-  if (metadata.form) object["form"] = *metadata.form;
-  if (metadata.source) object["source"] = *metadata.source;
-  if (metadata.source_channel) object["source_channel"] = *metadata.source_channel;
-  if (metadata.source_hash) object["source_hash"] = *metadata.source_hash;
+  for (const auto& [key, value] : metadata.facts) {
+    std::visit(
+        [&, &name = key](const auto& held) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) object[name] = held;
+        },
+        value);
+  }
   for (const TileRecord& tile : metadata.tiles) {
     object["tiles"].push_back({{"motion", pair_of(tile.motion)},
                                {"start_energy", tile.start_energy},

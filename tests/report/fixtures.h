@@ -25,7 +25,7 @@ inline Metadata mask_metadata() {
   metadata.algorithm = "void-and-cluster";
   metadata.algorithm_version = 1;
   metadata.kind = "mask";
-  metadata.seed = 1;
+  metadata.facts.add("seed", 1);
   return metadata;
 }
 
@@ -47,15 +47,15 @@ inline void write_set(const std::filesystem::path& folder) {
   metadata.algorithm = "retarget-exact";
   metadata.algorithm_version = 1;
   metadata.kind = "retarget-atlas";
-  metadata.step = options.step;
-  metadata.radius = options.radius;
-  metadata.reach = "chebyshev";
-  metadata.metric = "l1";
-  metadata.wrap = true;
-  metadata.form = "scatter";
-  metadata.source = "mask.png";
-  metadata.source_channel = 0;
-  metadata.source_hash = pixel_hash(mask);
+  metadata.facts.add("step", options.step);
+  metadata.facts.add("radius", options.radius);
+  metadata.facts.add("reach", "chebyshev");
+  metadata.facts.add("metric", "l1");
+  metadata.facts.add("wrap", Value(true));
+  metadata.facts.add("form", "scatter");
+  metadata.facts.add("source", "mask.png");
+  metadata.facts.add("source_channel", 0);
+  metadata.facts.add("source_hash", pixel_hash(mask));
   std::vector<Image> tiles;
   const auto set = solve_motion_set(levels_of_channel(mask, 0).value, options, 1);
   for (int i = 0; i < 9; ++i) {

@@ -108,16 +108,16 @@ inline Metadata full_metadata() {
   metadata.kind = "retarget-atlas";
   metadata.recipe =
       "# two\nlines,\t\"quotes\" \\ back */ /* // \r\n and \u00e4\u00f6 \u2713 \U0001F600 \x01\x7f ?\?/ %s\n";
-  metadata.seed = ~std::uint64_t{0};
-  metadata.step = Offset{49, -37};
-  metadata.radius = 6;
-  metadata.reach = "chebyshev";
-  metadata.metric = "l1";
-  metadata.wrap = false;
-  metadata.form = "gather";
-  metadata.source = "masks/a b.png";
-  metadata.source_channel = 2;
-  metadata.source_hash = "xxh3-128:00112233445566778899aabbccddeeff";
+  metadata.facts.add("seed", std::numeric_limits<std::int64_t>::max());
+  metadata.facts.add("step", Offset{49, -37});
+  metadata.facts.add("radius", 6);
+  metadata.facts.add("reach", "chebyshev");
+  metadata.facts.add("metric", "l1");
+  metadata.facts.add("wrap", Value(false));
+  metadata.facts.add("form", "gather");
+  metadata.facts.add("source", "masks/a b.png");
+  metadata.facts.add("source_channel", 2);
+  metadata.facts.add("source_hash", "xxh3-128:00112233445566778899aabbccddeeff");
   for (int y = -4; y <= 4; ++y) {
     for (int x = -4; x <= 4; ++x) {
       metadata.tiles.push_back(

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "bn/execution.h"
 #include "bn/grid.h"
+#include "bn/value.h"
 #include "bn/version.h"
 
 namespace bn {
@@ -41,18 +43,12 @@ struct Metadata {
   int algorithm_version = 0;
   std::string kind;    ///< "mask", "retarget-tile", "retarget-atlas", "contact-sheet"
   std::string recipe;  ///< TOML that makes this file again, whole
-  std::optional<std::uint64_t> seed;
-  std::optional<Offset> step;
-  std::optional<int> radius;
-  std::optional<std::string> reach;   ///< "chebyshev", "euclidean"
-  std::optional<std::string> metric;  ///< "l1", "l2"
-  std::optional<bool> wrap;
-  std::optional<std::string> form;    ///< "scatter", "gather"
-  std::optional<std::string> source;  ///< for retarget: the mask's file, relative to this file
-  std::optional<int> source_channel;
-  std::optional<std::string> source_hash;  ///< its pixel hash
-  std::vector<TileRecord> tiles;           ///< one for a tile, one per motion for an atlas, row by row
-  std::string pixel_hash;                  ///< filled in by write_image()
+  /// What else identifies the file, by its recipe's names: seed, step, radius, ... For retarget tiles also
+  /// the mask's file (source, relative to this one), its channel (source_channel) and its pixel hash
+  /// (source_hash).
+  Facts facts;
+  std::vector<TileRecord> tiles;  ///< one for a tile, one per motion for an atlas, row by row
+  std::string pixel_hash;         ///< filled in by write_image()
   friend bool operator==(const Metadata&, const Metadata&) = default;
 };
 
@@ -60,8 +56,10 @@ struct Metadata {
 /// Errors: invalid_input (text that is not UTF-8).
 std::string to_json(const Metadata& metadata, int indent = -1);
 
-/// The inverse. Strict: errors with invalid_input on an unknown member, a missing one, a wrong type, a
-/// number out of range, or another version of the schema.
+/// The inverse. Members beyond those of every file are facts: truths, numbers, texts, and lists of whole
+/// numbers; at most 64, with names of 1..40 of the characters a..z, 0..9 and '_'. Strict: errors with
+/// invalid_input on anything else, a missing member, a wrong type, a number out of range, or another version
+/// of the schema.
 Metadata metadata_from_json(std::string_view json);
 
 /// Interleaved samples in native byte order, origin top-left, linear (never colour-managed).
@@ -140,6 +138,8 @@ void check_text_writable(const std::filesystem::path& path);
 /// A rank mask as samples: 8bit floor(rank * 256 / N), 16bit floor(rank * 65536 / N), float
 /// (rank + 0.5) / N. One channel. Errors: invalid_input (a rank >= N).
 Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type);
+/// Masks of one size as the channels of one picture, 1..4.
+Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type);
 
 /// Moves as 8bit RGB: red = x + 128, green = y + 128, blue = 0. Each component -128..127, checked.
 Image encode_moves(const Grid<Offset>& move);
