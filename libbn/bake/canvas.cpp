@@ -6,7 +6,7 @@
 
 #include "bake/label_font.h"
 
-namespace bn {
+namespace bn::baking {
 namespace {
 
 std::uint8_t to_byte(double share) {
@@ -119,4 +119,4 @@ Colour scale_colour(double share) {
   return {blend(low.red, high.red), blend(low.green, high.green), blend(low.blue, high.blue)};
 }
 
-}  // namespace bn
+}  // namespace bn::baking

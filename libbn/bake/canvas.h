@@ -8,7 +8,7 @@
 
 #include "bn/texture.h"
 
-namespace bn {
+namespace bn::baking {
 
 struct Colour {
   std::uint8_t red = 0, green = 0, blue = 0;
@@ -44,4 +44,4 @@ Colour move_colour(Offset move, double longest);
 /// A sequential scale from dark to light for a share 0..1.
 Colour scale_colour(double share);
 
-}  // namespace bn
+}  // namespace bn::baking

@@ -15,10 +15,11 @@
 #include <optional>
 
 #include "bake/canvas.h"
+#include "bake/inputs.h"
+#include "bake/kinds/retarget_source.h"
 #include "bake/label_font.h"
-#include "bake/layout.h"
 
-namespace bn {
+namespace bn::baking {
 namespace {
 
 constexpr int kMargin = 56, kGap = 40;
@@ -81,7 +82,7 @@ class Sheet {
     const Levels32& levels = view.levels.value;
     const Extent size = levels.size();
     const RetargetEntry& entry = *view.entry;
-    const Offset step = view.job->step.value_or(Offset{});
+    const Offset step = view.job->facts.get<Offset>("step").value_or(Offset{});
     const std::int64_t optimal = std::count_if(view.job->tiles.begin(), view.job->tiles.end(),
                                                [](auto& tile) { return tile.energy == tile.lower_bound; });
     const std::size_t motions = view.job->tiles.size();
@@ -90,9 +91,10 @@ class Sheet {
         fmt::format(
             "{} x {}   step ({}, {}), repeats after {} frames   radius {} {}, {}{}   {} motion{}, {} proven "
             "optimal",
-            size.width, size.height, step.x, step.y, view.job->orbit_length.value_or(0), entry.options.radius,
-            name_of(entry.options.reach), name_of(entry.options.metric),
-            entry.options.wrap ? "" : ", no wrap", motions, motions == 1 ? "" : "s",
+            size.width, size.height, step.x, step.y,
+            view.job->facts.get<std::int64_t>("orbit_length").value_or(0), entry.problem.radius,
+            name_of(entry.problem.reach), name_of(entry.problem.metric),
+            entry.problem.wrap ? "" : ", no wrap", motions, motions == 1 ? "" : "s",
             optimal == static_cast<std::int64_t>(motions) ? "all" : fmt::format("{}", optimal)));
     const TileRecord plain = view.job->tiles.at(motion_index({0, 0}, entry.motion));
     const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
@@ -105,7 +107,7 @@ class Sheet {
     if (view.tile) {
       panel(2, 0, fmt::format("|D(u)-D(u+R+d)| x{}", kResidualGain), energy_text(plain.energy, pixels),
             residual(levels, *view.tile, step, kResidualGain / span));
-      const double longest = entry.options.radius;
+      const double longest = entry.problem.radius;
       panel(0, 1, "R, hue = direction", fmt::format("lower bound {}", plain.lower_bound),
             coloured(size, [&](int x, int y) { return move_colour((*view.tile)(x, y), longest); }));
       hue_key(kMargin + kPanel - 32, row_top(1) + kPanel + 16);
@@ -121,7 +123,7 @@ class Sheet {
     const Levels32& levels = source.value;
     const Extent size = levels.size();
     header(entry.name, fmt::format("{} x {}   void-and-cluster, sigma {}, seed {}", size.width, size.height,
-                                   entry.options.sigma_px, entry.options.seed));
+                                   entry.void_and_cluster.sigma_px, entry.void_and_cluster.seed));
     const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
     const double span = std::max<double>(*high - *low, 1.0);
     panel(0, 0, "mask", fmt::format("{} levels", source.distinct),
@@ -242,7 +244,7 @@ class Sheet {
     const int longest_side = std::max(moves.width(), moves.height());
     const int every = (longest_side + kAtlas - 1) / kAtlas, scale = std::max(1, kAtlas / longest_side);
     // Scaled so that the motions, not the moves about them, span the colours.
-    const double longest = entry.motion + 0.5 * entry.options.radius;
+    const double longest = entry.motion + 0.5 * entry.problem.radius;
     const auto picture =
         coloured(moves.size(), [&](int x, int y) { return move_colour(moves(x, y), longest); });
     canvas_.fill(left, top, {kAtlas, kAtlas}, kEmpty);
@@ -269,15 +271,17 @@ class Sheet {
 /// Reads what the sheet shows of a set from its own files.
 SetView view_of(const Recipe& recipe, const RetargetEntry& entry, const JobRecord& job,
                 const std::filesystem::path& out_dir, const Execution& execution) {
+  const std::filesystem::path source = input_paths(recipe, entry, out_dir).front();
   SetView view{.job = &job,
                .entry = &entry,
-               .levels = read_source(source_path(recipe, entry, out_dir), channels_of(entry), execution).levels[0],
+               .levels = source_of(read_input(source, execution), channels_of(entry)).levels[0],
                .source = "",
                .tile = std::nullopt,
                .atlas = std::nullopt};
-  const MaskEntry* mask = mask_of(recipe, entry);
-  view.source = mask ? fmt::format("sigma {}, seed {}", mask->options.sigma_px, mask->options.seed)
-                     : fmt::format("{} levels", view.levels.distinct);
+  const auto mask = std::dynamic_pointer_cast<const MaskEntry>(find_entry(recipe, "mask", entry.mask));
+  view.source =
+      mask ? fmt::format("sigma {}, seed {}", mask->void_and_cluster.sigma_px, mask->void_and_cluster.seed)
+           : fmt::format("{} levels", view.levels.distinct);
   const Extent size = view.levels.value.size();
   for (const RetargetOutput& output : entry.outputs) {
     const bool is_tile = output.kind == RetargetOutput::Kind::tile;
@@ -297,41 +301,48 @@ SetView view_of(const Recipe& recipe, const RetargetEntry& entry, const JobRecor
 
 }  // namespace
 
-Metadata contact_sheet_metadata(const JobFile& file) {
+Metadata contact_sheet_metadata() {
   Metadata metadata;
-  metadata.algorithm = "contact-sheet";
+  metadata.algorithm = kContactSheetKind;
   metadata.algorithm_version = kContactSheetVersion;
-  metadata.kind = "contact-sheet";
-  metadata.recipe = file.recipe;
+  metadata.kind = kContactSheetKind;
   return metadata;
 }
 
 Image draw_contact_sheet(const Recipe& recipe, const std::filesystem::path& out_dir,
                          const std::vector<JobRecord>& jobs, const Execution& execution) {
+  std::vector<const RetargetEntry*> sets;
   std::vector<const MaskEntry*> lone_masks;
-  for (const MaskEntry& mask : recipe.masks) {
-    const bool used = std::any_of(recipe.retargets.begin(), recipe.retargets.end(),
-                                  [&](const RetargetEntry& set) { return set.mask == mask.name; });
-    if (!used) lone_masks.push_back(&mask);
+  for (const auto& entry : recipe.entries) {
+    if (const auto* set = dynamic_cast<const RetargetEntry*>(entry.get())) sets.push_back(set);
   }
-  const int wanted = static_cast<int>(recipe.retargets.size() + lone_masks.size());
+  for (const auto& entry : recipe.entries) {
+    const auto* mask = dynamic_cast<const MaskEntry*>(entry.get());
+    const bool used =
+        mask && std::any_of(sets.begin(), sets.end(), [&](auto* set) { return set->mask == mask->name; });
+    if (mask && !used) lone_masks.push_back(mask);
+  }
+  const int wanted = static_cast<int>(sets.size() + lone_masks.size());
   const int shown = std::min(wanted, kMaxSections);
-  const int sets = std::min(static_cast<int>(recipe.retargets.size()), shown), masks = shown - sets;
+  const int shown_sets = std::min(static_cast<int>(sets.size()), shown), masks = shown - shown_sets;
 
-  Sheet sheet(kMargin + sets * (kBothRows + kBetween) + masks * (kOneRow + kBetween) +
+  Sheet sheet(kMargin + shown_sets * (kBothRows + kBetween) + masks * (kOneRow + kBetween) +
               (wanted > shown ? kMargin : 0));
-  for (int i = 0; i < sets; ++i) {
+  for (int i = 0; i < shown_sets; ++i) {
     throw_if_stopped(execution);
-    const JobRecord& job = jobs[recipe.masks.size() + static_cast<std::size_t>(i)];
-    sheet.set(view_of(recipe, recipe.retargets[static_cast<std::size_t>(i)], job, out_dir, execution));
+    const RetargetEntry& set = *sets[static_cast<std::size_t>(i)];
+    const auto job = std::find_if(jobs.begin(), jobs.end(), [&](auto& made) {
+      return made.kind == "retarget" && made.name == set.name;
+    });
+    if (job != jobs.end()) sheet.set(view_of(recipe, set, *job, out_dir, execution));
   }
   for (int i = 0; i < masks; ++i) {
     throw_if_stopped(execution);
     const MaskEntry& mask = *lone_masks[static_cast<std::size_t>(i)];
-    sheet.mask(mask, read_source(out_dir / mask.outputs.front().path, {0}, execution).levels[0]);
+    sheet.mask(mask, source_of(read_input(out_dir / mask.path_of(0), execution), {0}).levels[0]);
   }
   if (wanted > shown) sheet.left_out(wanted - shown);
   return sheet.image();
 }
 
-}  // namespace bn
+}  // namespace bn::baking

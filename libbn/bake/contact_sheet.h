@@ -4,19 +4,20 @@
 
 #include <vector>
 
-#include "bake/job.h"
+#include "bn/bake.h"
 
-namespace bn {
+namespace bn::baking {
 
 /// Raised whenever the same textures would give another picture.
 inline constexpr int kContactSheetVersion = 1;
-inline constexpr const char* kContactSheetJob = "contact_sheet";
+inline constexpr const char* kContactSheetKind = "contact-sheet";  ///< of the job and of the file
+inline constexpr const char* kContactSheetJob = "contact_sheet";   ///< the job's name
 
-Metadata contact_sheet_metadata(const JobFile& file);
+Metadata contact_sheet_metadata();
 
 /// Draws what stands in the output folder: it reads the files of `jobs` back from the disk, so the
 /// same files give the same sheet, whether they were made just now or by an earlier bake.
 Image draw_contact_sheet(const Recipe& recipe, const std::filesystem::path& out_dir,
                          const std::vector<JobRecord>& jobs, const Execution& execution);
 
-}  // namespace bn
+}  // namespace bn::baking

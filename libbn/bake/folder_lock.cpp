@@ -9,7 +9,7 @@
 
 #include "bn/error.h"
 
-namespace bn {
+namespace bn::baking {
 
 FolderLock::FolderLock(const std::filesystem::path& folder)
     : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
@@ -33,4 +33,4 @@ FolderLock::FolderLock(const std::filesystem::path& folder)
 
 FolderLock::~FolderLock() { ::close(folder_); }
 
-}  // namespace bn
+}  // namespace bn::baking

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace bn {
+namespace bn::baking {
 
 /// Holds an advisory lock on the folder itself: no lock file, so nothing stale stays behind when a
 /// process is killed. Throws io if another process (or another bake of this one) holds it.
@@ -19,4 +19,4 @@ class FolderLock {
   int folder_;
 };
 
-}  // namespace bn
+}  // namespace bn::baking

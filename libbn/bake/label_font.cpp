@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace bn {
+namespace bn::baking {
 namespace {
 
 struct Glyph {
@@ -114,4 +114,4 @@ bool glyph_pixel(char character, int x, int y) {
   return rows_of(character)[static_cast<std::size_t>(y * (kGlyphWidth + 1) + x)] == '#';
 }
 
-}  // namespace bn
+}  // namespace bn::baking

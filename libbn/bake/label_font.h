@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-namespace bn {
+namespace bn::baking {
 
 inline constexpr int kGlyphWidth = 5;
 inline constexpr int kGlyphHeight = 9;  ///< seven rows above the base line, two below
@@ -18,4 +18,4 @@ inline int text_width(std::string_view text) {
   return text.empty() ? 0 : static_cast<int>(text.size()) * kGlyphAdvance - 1;
 }
 
-}  // namespace bn
+}  // namespace bn::baking

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <type_traits>
+#include <variant>
 
 #include "bn/error.h"
 #include "bn/version.h"
 
-namespace bn {
+namespace bn::baking {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -62,10 +64,23 @@ TileRecord tile_of(const Json& json) {
           .lower_bound = json.at("lower_bound").get<std::int64_t>()};
 }
 
+Value value_of(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_float()) return json.get<double>();
+  if (json.is_number()) return json.get<std::int64_t>();
+  if (json.is_array()) return json.get<std::vector<std::int64_t>>();
+  return json.get<std::string>();
+}
+
 Json json_of(const JobRecord& job) {
-  Json json{{"name", job.name}, {"kind", name_of(job.kind)}};
-  if (job.step) json["step"] = {job.step->x, job.step->y};
-  if (job.orbit_length) json["orbit_length"] = *job.orbit_length;
+  Json json{{"name", job.name}, {"kind", job.kind}};
+  for (const auto& [key, value] : job.facts) {
+    std::visit(
+        [&, &name = key](const auto& held) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) json[name] = held;
+        },
+        value);
+  }
   if (!job.notes.empty()) json["notes"] = job.notes;
   for (const FileRecord& file : job.files) {
     Json entry{{"path", file.path}, {"kind", file.kind}, {"pixel_hash", file.pixel_hash}};
@@ -80,12 +95,11 @@ Json json_of(const JobRecord& job) {
 JobRecord job_of(const Json& json) {
   JobRecord job;
   job.name = json.at("name").get<std::string>();
-  const std::string kind = json.at("kind").get<std::string>();
-  for (const JobKind candidate : {JobKind::mask, JobKind::retarget, JobKind::contact_sheet}) {
-    if (kind == name_of(candidate)) job.kind = candidate;
+  job.kind = json.at("kind").get<std::string>();
+  for (const auto& [key, value] : json.items()) {
+    if (key == "name" || key == "kind" || key == "notes" || key == "files" || key == "tiles") continue;
+    job.facts.add(key, value_of(value));
   }
-  if (json.contains("step")) job.step = {json["step"].at(0).get<int>(), json["step"].at(1).get<int>()};
-  if (json.contains("orbit_length")) job.orbit_length = json["orbit_length"].get<std::int64_t>();
   if (json.contains("notes")) job.notes = json["notes"].get<std::vector<std::string>>();
   if (json.contains("tiles")) {
     for (const Json& tile : json["tiles"]) job.tiles.push_back(tile_of(tile));
@@ -105,18 +119,6 @@ JobRecord job_of(const Json& json) {
 }
 
 }  // namespace
-
-std::string_view name_of(JobKind kind) {
-  switch (kind) {
-    case JobKind::mask:
-      return "mask";
-    case JobKind::retarget:
-      return "retarget";
-    case JobKind::contact_sheet:
-      break;
-  }
-  return "contact-sheet";
-}
 
 std::string manifest_text(const Manifest& manifest) {
   Json json{{"manifest_version", kManifestVersion},
@@ -159,4 +161,4 @@ Manifest read_manifest(const std::filesystem::path& path) {
   }
 }
 
-}  // namespace bn
+}  // namespace bn::baking

@@ -8,7 +8,7 @@
 
 #include "bn/bake.h"
 
-namespace bn {
+namespace bn::baking {
 
 inline constexpr const char* kManifestName = "manifest.json";
 inline constexpr int kManifestVersion = 1;
@@ -24,4 +24,4 @@ std::string manifest_text(const Manifest& manifest);
 /// Errors: io (absent), invalid_input (no manifest of this version, cut short, edited beyond use).
 Manifest read_manifest(const std::filesystem::path& path);
 
-}  // namespace bn
+}  // namespace bn::baking

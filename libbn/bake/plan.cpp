@@ -4,34 +4,22 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "bake/contact_sheet.h"
-#include "bake/layout.h"
-#include "bake/mistakes.h"
-#include "bake/standing.h"
+#include "bake/inputs.h"
+#include "bake/paths.h"
+#include "bake/up_to_date.h"
 #include "bn/bake.h"
 #include "bn/error.h"
+#include "core/diagnostics.h"
 
 namespace bn {
+
+using namespace baking;
+
 namespace {
 
 namespace fs = std::filesystem;
-
-// Measured on one core of a Zen 5 machine; they only pace the progress bar.
-constexpr double kMaskSecondsPerPixel = 0.3e-6;
-constexpr double kRetargetSecondsPerPixel = 1.5e-6;  // up to 128 x 128, then growing with the side
-constexpr double kContactSheetSeconds = 0.3;
-constexpr std::uint64_t kMaskBytesPerPixel = 12 + 8;     // the solver; encoding and writing
-constexpr std::uint64_t kSolverBytesPerPixel = 64;       // of a tile in work
-constexpr std::uint64_t kTileBytesPerPixel = 8 + 3 + 3;  // of a finished tile: moves, image, atlas
-
-/// Of one tile.
-double annealing_seconds(const AnnealMethod& method) {
-  constexpr double kSecondsPerProposal = 6e-10, kSecondsPerFilteredOne = 1e-7;
-  return static_cast<double>(method.options.proposals) * method.options.chains.count *
-         (method.residual_sigma_px > 0.0 ? kSecondsPerFilteredOne : kSecondsPerProposal);
-}
 
 /// The nearest folder of `path` that exists.
 fs::path existing_folder(fs::path path) {
@@ -44,19 +32,18 @@ fs::path existing_folder(fs::path path) {
 class Planner {
  public:
   Planner(const Recipe& recipe, const BakeOptions& options, const Execution& execution)
-      : recipe_(recipe), options_(options), execution_(execution), mistakes_(recipe.name) {}
+      : recipe_(recipe), options_(options), execution_(execution), diagnostics_(recipe.name) {}
 
   BakePlan plan() {
     thread_count(execution_);
     check_out_dir();
     if (!options_.force) earlier_ = earlier_manifest(options_.out_dir);
-    for (std::size_t i = 0; i < recipe_.masks.size(); ++i) plan_mask(static_cast<int>(i));
-    for (std::size_t i = 0; i < recipe_.retargets.size(); ++i) plan_retarget(static_cast<int>(i));
+    for (const std::size_t index : baking_order(recipe_)) plan_entry(*recipe_.entries[index]);
     if (!recipe_.contact_sheet.empty()) plan_contact_sheet();
-    for (const RetargetEntry& entry : recipe_.retargets) check_source_survives(entry);
-    mistakes_.throw_if_any();
+    for (const auto& entry : recipe_.entries) check_inputs_survive(*entry);
+    diagnostics_.throw_if_any();
     for (const PlannedJob& job : plan_.jobs) {
-      if (!job.stands) plan_.estimated_seconds += job.estimated_seconds;
+      if (!job.up_to_date) plan_.estimated_seconds += job.estimated_seconds;
       plan_.memory_bytes = std::max(plan_.memory_bytes, job.memory_bytes);
     }
     return std::move(plan_);
@@ -90,7 +77,7 @@ class Planner {
     } catch (const Error& error) {
       if (error.code() != ErrorCode::invalid_input) throw;
       const ErrorInfo& info = error.info();
-      mistakes_.add(line, fmt::format("{}: {}", what, info.what), info.limit, info.remedy);
+      diagnostics_.add(line, fmt::format("{}: {}", what, info.what), info.limit, info.remedy);
       return false;
     }
   }
@@ -102,102 +89,97 @@ class Planner {
     passes(line, fmt::format("{}: output '{}'", what, path), [&] { check_writable(probe, type, channels); });
   }
 
-  void plan_mask(int index) {
-    const MaskEntry& entry = recipe_.masks[static_cast<std::size_t>(index)];
-    const auto pixels = static_cast<double>(entry.options.size.area());
-    PlannedJob job{.kind = JobKind::mask,
-                   .entry = index,
-                   .name = entry.name,
-                   .files = {},
-                   .estimated_seconds = pixels * kMaskSecondsPerPixel,
-                   .memory_bytes = static_cast<std::uint64_t>(entry.options.size.area()) * kMaskBytesPerPixel,
-                   .stands = false};
-    for (const MaskOutput& output : entry.outputs) {
-      job.files.push_back(output.path);
-      check_file(output.line, fmt::format("mask '{}'", entry.name), output.path, output.type, 1);
-    }
-    check_memory(execution_, job.memory_bytes,
-                 fmt::format("{}:{}: mask '{}'", recipe_.name, entry.line, entry.name));
-    job.stands = standing_mask(entry, mask_files(entry, options_.out_dir), earlier_, execution_).has_value();
-    plan_.jobs.push_back(std::move(job));
-  }
-
-  void plan_retarget(int index) {
-    const RetargetEntry& entry = recipe_.retargets[static_cast<std::size_t>(index)];
-    const std::string what = fmt::format("retarget '{}'", entry.name);
-    PlannedJob job{.kind = JobKind::retarget, .entry = index, .name = entry.name, .files = {}};
-    for (const RetargetOutput& output : entry.outputs) {
-      job.files.push_back(output.path);
-      check_file(output.line, what, output.path, SampleType::u8, 3);
-    }
-    Extent size;
-    std::optional<Source> source;
-    const fs::path path = source_path(recipe_, entry, options_.out_dir);
-    if (const MaskEntry* mask = mask_of(recipe_, entry)) {
-      size = mask->options.size;
-      const auto made_by = static_cast<std::size_t>(mask - recipe_.masks.data());
-      if (plan_.jobs[made_by].stands) source = read_source(path, {0}, execution_);
-    } else {
-      if (!passes(entry.line, fmt::format("{}: image '{}'", what, entry.image),
-                  [&] { source = read_source(path, channels_of(entry), execution_); }))
-        return;
-      size = source->levels[0].value.size();
-      if (entry.motion > largest_motion(size)) {
-        mistakes_.add(entry.line,
-                      fmt::format("{}: motion {} is larger than the tile of {}x{}", what, entry.motion,
-                                  size.width, size.height),
-                      fmt::format("0..{}", largest_motion(size)));
-      }
-    }
-    const int side = 2 * entry.motion + 1, tiles = side * side;
-    const auto pixels = static_cast<double>(size.area());
-    job.estimated_seconds =
-        tiles * pixels * kRetargetSecondsPerPixel * std::max(1.0, std::sqrt(pixels) / 128.0);
-    if (entry.anneal) job.estimated_seconds += tiles * annealing_seconds(*entry.anneal);
-    const std::uint64_t at_once = static_cast<std::uint64_t>(std::min(thread_count(execution_), tiles));
-    job.memory_bytes =
-        static_cast<std::uint64_t>(size.area()) *
-        (at_once * kSolverBytesPerPixel + static_cast<std::uint64_t>(tiles) * kTileBytesPerPixel);
-    check_memory(execution_, job.memory_bytes, fmt::format("{}:{}: {}", recipe_.name, entry.line, what));
-    if (source) {
-      const auto files = retarget_files(recipe_, entry, options_.out_dir);
-      job.stands = standing_retarget(entry, *source, files, earlier_, execution_).has_value();
-    }
-    plan_.jobs.push_back(std::move(job));
-  }
-
-  void check_source_survives(const RetargetEntry& entry) {
-    if (entry.image.empty()) return;
+  const PlannedJob* job_of(const Entry& entry) const {
     for (const PlannedJob& job : plan_.jobs) {
-      for (const std::string& file : job.files) {
-        if (!is_same_file(options_.out_dir / file, recipe_.folder / entry.image)) continue;
-        mistakes_.add(entry.line,
-                      fmt::format("retarget '{}': image '{}' would be replaced by the output '{}' of '{}'",
-                                  entry.name, entry.image, file, job.name),
-                      "", "give the output another path, or bake into another folder");
+      if (job.kind == entry.kind().table && job.name == entry.name) return &job;
+    }
+    return nullptr;
+  }
+
+  void plan_entry(const Entry& entry) {
+    const std::string what = fmt::format("{} '{}'", entry.kind().table, entry.name);
+    PlannedJob job{.kind = entry.kind().table, .name = entry.name};
+    for (std::size_t i = 0; i < entry.output_count(); ++i) {
+      job.files.push_back(entry.path_of(i));
+      check_file(entry.line_of_output(i), what, entry.path_of(i), entry.output_type(i),
+                 entry.output_channels(i));
+    }
+    std::vector<Extent> sizes;
+    std::vector<Input> inputs;
+    bool can_look = true;
+    const std::vector<InputName> names = input_names(entry);
+    const std::vector<fs::path> paths = input_paths(recipe_, entry, options_.out_dir);
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      if (names[i].is_file()) {
+        const std::string input = fmt::format("{}: {} '{}'", what, names[i].key, names[i].text);
+        if (!passes(entry.line, input, [&] { inputs.push_back(read_input(paths[i], execution_)); })) return;
+        sizes.push_back(inputs.back().image.size);
+        continue;
+      }
+      const auto source = find_entry(recipe_, names[i].kind, names[i].text);
+      sizes.push_back(source->size());
+      const PlannedJob* made_by = job_of(*source);
+      can_look = can_look && made_by && made_by->up_to_date;
+      if (can_look) inputs.push_back(read_input(paths[i], execution_));
+    }
+    entry.check_inputs(sizes,
+                       [&](std::string_view key, std::string problem, std::string limit, std::string remedy) {
+                         diagnostics_.add(entry.line, fmt::format("{}: {} {}", what, key, problem),
+                                          std::move(limit), std::move(remedy));
+                       });
+    const Cost cost = entry.cost(sizes, execution_);
+    job.estimated_seconds = cost.seconds;
+    job.memory_bytes = cost.memory_bytes;
+    check_memory(execution_, job.memory_bytes, fmt::format("{}:{}: {}", recipe_.name, entry.line, what));
+    // What an entry reads of its inputs, a channel say, must be there too.
+    const bool fits = !can_look || passes(entry.line, what, [&] {
+      const auto files = output_files(recipe_, entry, options_.out_dir);
+      job.up_to_date = up_to_date(job.kind, job.name, files, earlier_, execution_, [&](std::size_t i) {
+                         return entry.metadata(i, inputs, files[i].path.parent_path());
+                       }).has_value();
+      if (!job.up_to_date) entry.check_input_contents(inputs);
+    });
+    if (fits) plan_.jobs.push_back(std::move(job));
+  }
+
+  void check_inputs_survive(const Entry& entry) {
+    for (const InputName& input : input_names(entry)) {
+      if (!input.is_file()) continue;
+      for (const PlannedJob& job : plan_.jobs) {
+        for (const std::string& file : job.files) {
+          if (!is_same_file(options_.out_dir / file, recipe_.folder / input.text)) continue;
+          diagnostics_.add(entry.line,
+                           fmt::format("{} '{}': {} '{}' would be replaced by the output '{}' of '{}'",
+                                       entry.kind().table, entry.name, input.key, input.text, file, job.name),
+                           "", "give the output another path, or bake into another folder");
+        }
       }
     }
   }
 
   void plan_contact_sheet() {
+    constexpr double kContactSheetSeconds = 0.3;
     check_file(0, "contact_sheet", recipe_.contact_sheet, SampleType::u8, 3);
-    const bool others_stand =
-        std::all_of(plan_.jobs.begin(), plan_.jobs.end(), [](auto& job) { return job.stands; });
-    const JobFile file = contact_sheet_file(recipe_, options_.out_dir);
+    const bool others_hold =
+        std::all_of(plan_.jobs.begin(), plan_.jobs.end(), [](auto& job) { return job.up_to_date; });
+    const OutputFile file = contact_sheet_file(recipe_, options_.out_dir);
     plan_.jobs.push_back(
-        {.kind = JobKind::contact_sheet,
-         .entry = 0,
+        {.kind = kContactSheetKind,
          .name = kContactSheetJob,
          .files = {file.name},
          .estimated_seconds = kContactSheetSeconds,
          .memory_bytes = std::uint64_t{64} << 20,
-         .stands = others_stand && standing_contact_sheet(file, earlier_, execution_).has_value()});
+         .up_to_date =
+             others_hold &&
+             up_to_date(kContactSheetKind, kContactSheetJob, {file}, earlier_, execution_, [](std::size_t) {
+               return contact_sheet_metadata();
+             }).has_value()});
   }
 
   const Recipe& recipe_;
   const BakeOptions& options_;
   const Execution& execution_;
-  Mistakes mistakes_;
+  document::Diagnostics diagnostics_;
   Manifest earlier_;
   BakePlan plan_;
 };

@@ -1,67 +1,43 @@
-// The recipe language: TOML to Recipe. Everything that can be wrong with the text alone is found
-// here, with its line; what needs other files is found by the plan.
+// The recipe language: TOML to Recipe. What a table may hold is declared by its kind. Everything that can be
+// wrong with the text alone is found here, with its line; what needs other files is found by the plan.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <fstream>
-#include <limits>
 #include <map>
+#include <set>
 
-#include "bake/job.h"
-#include "bake/recipe_anneal.h"
-#include "bake/recipe_reader.h"
-#include "bake/toml_check.h"
+#include "bake/inputs.h"
+#include "bake/paths.h"
 #include "bn/bake.h"
 #include "bn/error.h"
+#include "core/table_reader.h"
 
 namespace bn {
+
+using namespace baking;
+using document::TableReader;
+
 namespace {
 
-constexpr int kMaxStep = 1 << 24;  // far above any tile's side; keeps every product within 64 bits
 constexpr std::size_t kMaxNameLength = 64;
-constexpr std::size_t kMaxPathLength = 1024;
+constexpr int kMaxCount = 1024;
 
-const std::vector<std::string> kSampleTypes = {"8bit", "16bit", "float"};
-const std::vector<std::string> kForms = {"scatter", "gather"};
-const std::vector<std::string> kReaches = {"chebyshev", "euclidean"};
-const std::vector<std::string> kMetrics = {"l1", "l2"};
-const std::vector<std::string> kKinds = {"tile", "atlas"};
-
-std::string lower_case_extension(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension;
-}
-
-/// What a path may not be, or nothing. Output files stay inside the output folder.
-std::string path_problem(const std::string& text) {
-  if (text.empty()) return "is empty";
-  if (text.size() > kMaxPathLength) return "is too long";
-  if (std::any_of(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; })) {
-    return "has control characters";
-  }
-  const std::filesystem::path path(text);
-  if (path.is_absolute()) return "is absolute";
-  if (std::any_of(path.begin(), path.end(), [](const auto& part) { return part == ".."; })) {
-    return "leaves the output folder";
-  }
-  if (!path.has_filename() || path.filename() == ".") return "names no file";
-  return "";
-}
+/// The options that a table sets, by their present keys: whether to something else than the default.
+using GivenOptions = std::map<std::string, bool>;
 
 class RecipeParser {
  public:
   RecipeParser(const toml::table& root, Recipe& recipe)
-      : mistakes_(recipe.name), root_(root, "recipe", mistakes_), recipe_(recipe) {}
+      : diagnostics_(recipe.name), root_(root, "recipe", diagnostics_), recipe_(recipe) {}
 
   void parse() {
     if (!root_.has("version")) {
-      mistakes_.add(1, "recipe: version is missing", fmt::format("{}", kRecipeVersion),
-                    fmt::format("begin with version = {}", kRecipeVersion));
+      diagnostics_.add(1, "recipe: version is missing", fmt::format("{}", kRecipeVersion),
+                       fmt::format("begin with version = {}", kRecipeVersion));
     }
     root_.integer("version", kRecipeVersion, kRecipeVersion, kRecipeVersion);
     recipe_.contact_sheet = root_.text("contact_sheet", recipe_.contact_sheet, "a path, or \"\" for none");
@@ -72,41 +48,82 @@ class RecipeParser {
                       "a .png file, or \"\" for none");
       }
     }
-    for_each_table("mask", [this](TableReader& table) { parse_mask(table); });
-    for_each_table("retarget", [this](TableReader& table) { parse_retarget(table); });
-    if (!root_.has("mask") && !root_.has("retarget")) {
-      mistakes_.add(1, "recipe: nothing to bake", "", "add a [[mask]] or a [[retarget]]");
+    bool any = false;
+    for (const Kind* kind : kinds()) {
+      any = root_.has(kind->table) || any;
+      parse_tables(*kind);
     }
+    if (!any) diagnostics_.add(1, "recipe: nothing to bake", "", "add a [[mask]] or a [[retarget]]");
     root_.finish();
     check_references();
-    mistakes_.throw_if_any();
+    diagnostics_.throw_if_any();
   }
 
  private:
-  template <class Each>
-  void for_each_table(const char* key, Each each) {
-    const std::string limit = fmt::format("tables, each begun by [[{}]]", key);
-    const toml::array* entries = root_.array(key, limit);
+  void parse_tables(const Kind& kind) {
+    const std::string limit = fmt::format("tables, each begun by [[{}]]", kind.table);
+    const toml::array* entries = root_.array(kind.table, limit);
     if (!entries) return;
     if (entries->size() > kMaxRecipeEntries) {
-      root_.mistake(key, fmt::format("has {} entries", entries->size()),
+      root_.mistake(kind.table, fmt::format("has {} entries", entries->size()),
                     fmt::format("0..{}", kMaxRecipeEntries), "split the recipe");
       return;
     }
     for (const toml::node& node : *entries) {
       const toml::table* table = node.as_table();
       if (!table) {
-        root_.mistake(key, "is no array of tables", limit);
+        root_.mistake(kind.table, "is no array of tables", limit);
         return;
       }
-      TableReader reader(*table, key, mistakes_);
-      each(reader);
+      TableReader reader(*table, kind.table, diagnostics_);
+      parse_entry(kind, reader);
       reader.finish();
     }
   }
 
+  void parse_entry(const Kind& kind, TableReader& table) {
+    const std::shared_ptr<Entry> entry = kind.make();
+    entry->line = table.line();
+    entry->name = parse_name(table, kind.table);
+    Options options = entry->options();
+    read_options(table, options);
+    entry->check([&](std::string_view key, std::string problem, std::string limit, std::string remedy) {
+      table.mistake(key, problem, std::move(limit), std::move(remedy));
+    });
+    const auto count = static_cast<int>(table.integer("count", 1, 1, kMaxCount));
+    parse_outputs(table, *entry, count);
+    if (count == 1) {
+      recipe_.entries.push_back(entry);
+    } else {
+      expand(table, *entry, count);
+    }
+  }
+
+  /// Sets what the table gives, and notes what it leaves out or gives in vain.
+  void read_options(TableReader& table, Options& options) {
+    GivenOptions given;
+    for (const Option& option : options.list()) {
+      const Value initial = option.get();
+      const std::string key = table.read(option);
+      if (!key.empty()) given[option.key] = option.get() != initial;
+      if (key.empty() && option.required) table.mistake(option.key, "is missing", allowed_text(option));
+    }
+    for (const Option& option : options.list()) {
+      const auto found = given.find(option.key);
+      if (found == given.end()) continue;
+      if (!option.applies())
+        table.mistake(option.key, "does not apply", fmt::format("only with {}", option.needs));
+      for (const std::string& other : option.not_beside) {
+        const auto beside = given.find(other);
+        if (beside != given.end() && beside->second && found->second) {
+          table.mistake(option.key, fmt::format("stands beside {}", other), "one of the two");
+        }
+      }
+    }
+  }
+
   /// A name that no entry of this recipe has yet.
-  std::string parse_name(TableReader& table, const char* kind) {
+  std::string parse_name(TableReader& table, const std::string& kind) {
     const std::string name = table.text("name", "");
     const bool sound =
         !name.empty() && name.size() <= kMaxNameLength && std::all_of(name.begin(), name.end(), [](char c) {
@@ -146,165 +163,124 @@ class RecipeParser {
         "", "give every file a path of its own");
   }
 
-  /// Reads `outputs`; each element is a path, or a table with `path` and what `each` reads.
-  template <class Output, class Each>
-  void parse_outputs(TableReader& entry, const std::string& what, std::vector<Output>& outputs, Each each) {
+  /// Reads `outputs`; each element is a path, or a table with `path` and the options of the kind's outputs.
+  void parse_outputs(TableReader& table, Entry& entry, int count) {
     const std::string limit = "an array of paths, or of tables { path = \"...\" }";
-    const toml::array* list = entry.array("outputs", limit);
-    if (!entry.has("outputs")) entry.mistake("outputs", "is missing", limit);
+    const toml::array* list = table.array("outputs", limit);
+    if (!table.has("outputs")) table.mistake("outputs", "is missing", limit);
     if (!list) return;
     if (list->empty() || list->size() > kMaxOutputs) {
-      entry.mistake("outputs", fmt::format("has {} elements", list->size()),
+      table.mistake("outputs", fmt::format("has {} elements", list->size()),
                     fmt::format("1..{}", kMaxOutputs));
       return;
     }
+    const std::string what = fmt::format("{} '{}'", entry.kind().table, entry.name);
     for (const toml::node& node : *list) {
       // A plain path is short for a table that holds nothing else.
       toml::table short_form;
-      const toml::table* table = node.as_table();
+      const toml::table* output = node.as_table();
       if (const auto* path = node.as_string()) {
         short_form.insert("path", path->get());
-        table = &short_form;
+        output = &short_form;
       }
-      if (!table) {
-        mistakes_.add(line_of(node), fmt::format("{}: an output is no path", what), limit);
+      if (!output) {
+        diagnostics_.add(document::line_of(node), fmt::format("{}: an output is no path", what), limit);
         continue;
       }
-      TableReader reader(*table, what + " output", mistakes_);
-      reader.place_at(line_of(node));
-      Output output;
-      output.line = line_of(node);
-      if (!reader.has("path"))
-        reader.mistake("path", "is missing", "a relative path inside the output folder");
-      output.path = reader.text("path", "");
-      if (!output.path.empty() || reader.has("path")) claim_path(reader, "path", output.path, output.line);
-      each(reader, output);
+      TableReader reader(*output, what + " output", diagnostics_);
+      reader.place_at(document::line_of(node));
+      parse_output(reader, entry, document::line_of(node), count);
       reader.finish();
-      outputs.push_back(std::move(output));
     }
   }
 
-  void parse_mask(TableReader& table) {
-    MaskEntry mask;
-    mask.line = table.line();
-    mask.name = parse_name(table, "mask");
-    table.choice("method", 0, {"void-and-cluster"});
-    if (const auto size = table.pair("size", 1, 16384)) {
-      mask.options.size = {size->x, size->y};
-    } else if (!table.has("size")) {
-      table.mistake("size", "is missing", "[width, height], each 1..16384");
+  void parse_output(TableReader& reader, Entry& entry, int line, int count) {
+    entry.add_output();
+    const std::size_t index = entry.output_count() - 1;
+    std::string& path = entry.output_path(index);
+    entry.output_line(index) = line;
+    if (!reader.has("path")) reader.mistake("path", "is missing", "a relative path inside the output folder");
+    path = reader.text("path", "");
+    if (count == 1 && (!path.empty() || reader.has("path"))) claim_path(reader, "path", path, line);
+    for (int i = 0; count > 1 && i < count; ++i) {
+      try {
+        claim_path(reader, "path", numbered_path(path, i), line);
+      } catch (const Error& error) {
+        reader.mistake("path", error.info().what, error.info().limit,
+                       "with count, the path has a place for the number");
+        break;
+      }
     }
-    mask.options.sigma_px = table.number("sigma", mask.options.sigma_px, 0.3, 16.0);
-    mask.options.initial_density = table.number("initial_density", mask.options.initial_density, 0.0, 0.5);
-    mask.options.seed = static_cast<std::uint64_t>(table.integer(
-        "seed", static_cast<std::int64_t>(mask.options.seed), 0, std::numeric_limits<std::int64_t>::max()));
-    mask.options.cutoff_px = static_cast<int>(table.integer("cutoff", mask.options.cutoff_px, 0, 64));
-    parse_outputs(table, fmt::format("mask '{}'", mask.name), mask.outputs,
-                  [](TableReader& reader, MaskOutput& output) {
-                    const int natural = lower_case_extension(output.path) == ".exr" ? 2 : 0;
-                    output.type = static_cast<SampleType>(reader.choice("type", natural, kSampleTypes));
-                  });
-    recipe_.masks.push_back(std::move(mask));
+    entry.default_output(index);
+    Options options = entry.output_options(index);
+    read_options(reader, options);
   }
 
-  void parse_retarget(TableReader& table) {
-    RetargetEntry set;
-    set.line = table.line();
-    set.name = parse_name(table, "retarget");
-    set.mask = table.text("mask", "", "the name of a [[mask]]");
-    set.image = table.text("image", "", "a path relative to the recipe");
-    if (set.mask.empty() == set.image.empty()) {
-      table.mistake(set.image.empty() ? "mask" : "image",
-                    set.image.empty() ? "is missing" : "stands beside a mask",
-                    "either mask = \"name\" or image = \"path\"");
+  /// `count` entries of one table: names and paths with a number, seeds one after the other.
+  void expand(TableReader& table, const Entry& entry, int count) {
+    for (int i = 0; i < count; ++i) {
+      try {
+        const std::shared_ptr<Entry> single = numbered_entry(entry, i);
+        if (lines_of_names_.emplace(single->name, entry.line).second) {
+          recipe_.entries.push_back(single);
+        } else {
+          table.mistake("count", fmt::format("makes the name '{}', which is used already", single->name), "",
+                        "give every entry a name of its own");
+        }
+      } catch (const Error&) {
+        return;  // the path without a place for the number is noted already
+      }
     }
-    const bool from_image = !set.image.empty();
-    if (table.has("channel") && !from_image)
-      table.mistake("channel", "needs an image", "only with image = \"path\"");
-    if (table.has("levels") && from_image) {
-      table.mistake("levels", "needs a mask", "only with mask = \"name\"",
-                    "an image is read as it is; leave it out");
-    }
-    set.channel = static_cast<int>(table.integer("channel", 0, 0, 63));
-    set.levels = static_cast<SampleType>(table.choice("levels", 0, kSampleTypes));
-    const toml::node* step = table.find("step");
-    const auto* word = step ? step->as_string() : nullptr;
-    if (!word || word->get() != "auto") set.step = table.pair("step", -kMaxStep, kMaxStep, "\"auto\", or ");
-    set.options.radius = static_cast<int>(table.integer("radius", set.options.radius, 1, 32));
-    set.options.reach = static_cast<Reach>(table.choice("reach", 0, kReaches));
-    set.options.metric = static_cast<Metric>(table.choice("metric", 0, kMetrics));
-    set.options.wrap = table.boolean("wrap", true);
-    set.motion = static_cast<int>(table.integer("motion", 0, 0, 8));
-    set.options.gap = parse_gap(table);
-    set.anneal = parse_anneal(table, set);
-    parse_outputs(table, fmt::format("retarget '{}'", set.name), set.outputs,
-                  [&](TableReader& reader, RetargetOutput& output) {
-                    const int natural = set.motion > 0 ? 1 : 0;
-                    output.kind = static_cast<RetargetOutput::Kind>(reader.choice("kind", natural, kKinds));
-                    output.form = static_cast<MoveForm>(reader.choice("form", 0, kForms));
-                    const bool moves = reader.has("motion");
-                    if (moves && output.kind == RetargetOutput::Kind::atlas) {
-                      reader.mistake("motion", "needs a tile", "only with kind = \"tile\"",
-                                     "an atlas holds every motion; leave it out");
-                    }
-                    if (const auto motion = reader.pair("motion", -set.motion, set.motion))
-                      output.motion = *motion;
-                  });
-    recipe_.retargets.push_back(std::move(set));
   }
 
-  /// A share: 0.005 or "0.5%".
-  double parse_gap(TableReader& table) {
-    const toml::node* node = table.find("gap");
-    const auto* percent = node ? node->as_string() : nullptr;
-    if (!percent) return table.number("gap", 0.0, 0.0, 1.0);
-    const std::string& text = percent->get();
-    double value = -1.0;
-    // from_chars knows no locale, so a recipe means the same everywhere.
-    const char* const end = text.data() + text.size();
-    const auto [rest, failed] = std::from_chars(text.data(), end, value);
-    value = failed == std::errc() && rest + 1 == end && *rest == '%' ? value / 100.0 : -1.0;
-    if (value >= 0.0 && value <= 1.0) return value;
-    table.mistake("gap", "is no share", "0..1, or \"0%\"..\"100%\"");
-    return 0.0;
+  Complain complaining_of(const Entry& entry) {
+    return [this, &entry](std::string_view key, std::string problem, std::string limit, std::string remedy) {
+      diagnostics_.add(entry.line,
+                       fmt::format("{} '{}': {} {}", entry.kind().table, entry.name, key, problem),
+                       std::move(limit), std::move(remedy));
+    };
   }
 
   void check_references() {
-    std::vector<std::string> names;
-    for (const MaskEntry& mask : recipe_.masks) names.push_back(mask.name);
-    for (const RetargetEntry& set : recipe_.retargets) {
-      if (set.mask.empty()) continue;
-      const auto found = std::find(names.begin(), names.end(), set.mask);
-      if (found == names.end()) {
-        const std::string nearest = nearest_word(set.mask, names);
-        mistakes_.add(
-            set.line, fmt::format("retarget '{}': there is no mask '{}'", set.name, set.mask),
-            names.empty() ? "" : fmt::format("{}", fmt::join(names, ", ")),
-            nearest.empty() ? "add a [[mask]] of that name" : fmt::format("did you mean '{}'?", nearest));
-        continue;
+    for (const auto& entry : recipe_.entries) {
+      std::vector<Extent> sizes;
+      for (const InputName& input : input_names(*entry)) {
+        if (!input.is_file()) check_reference(*entry, input, sizes);
       }
-      // The tiles name the mask's file as their source, so there must be one with those very samples.
-      const MaskEntry& mask = recipe_.masks[static_cast<std::size_t>(found - names.begin())];
-      const bool has_file = std::any_of(mask.outputs.begin(), mask.outputs.end(),
-                                        [&](const MaskOutput& output) { return output.type == set.levels; });
-      if (!has_file) {
-        mistakes_.add(
-            set.line,
-            fmt::format("retarget '{}': mask '{}' has no {} output for the tiles to refer to", set.name,
-                        set.mask, name_of(set.levels)),
-            "", fmt::format("add {{ path = \"...\", type = \"{}\" }} to its outputs", name_of(set.levels)));
-      }
-      const Extent size = mask.options.size;
-      if (set.motion > largest_motion(size)) {
-        mistakes_.add(set.line,
-                      fmt::format("retarget '{}': motion {} is larger than the tile of {}x{}", set.name,
-                                  set.motion, size.width, size.height),
-                      fmt::format("0..{}", largest_motion(size)));
-      }
+      entry->check_inputs(sizes, complaining_of(*entry));
+    }
+    if (const auto entry = entry_in_cycle(recipe_)) {
+      diagnostics_.add(entry->line,
+                       fmt::format("{} '{}' is made from itself", entry->kind().table, entry->name), "",
+                       "break the circle");
     }
   }
 
-  Mistakes mistakes_;
+  void check_reference(const Entry& entry, const InputName& input, std::vector<Extent>& sizes) {
+    const std::string what = fmt::format("{} '{}'", entry.kind().table, entry.name);
+    const auto source = find_entry(recipe_, input.kind, input.text);
+    if (!source) {
+      std::vector<std::string> names;
+      for (const auto& other : recipe_.entries) {
+        if (other->kind().table == input.kind) names.push_back(other->name);
+      }
+      const std::string nearest = nearest_word(input.text, names);
+      diagnostics_.add(entry.line, fmt::format("{}: there is no {} '{}'", what, input.kind, input.text),
+                       names.empty() ? "" : fmt::format("{}", fmt::join(names, ", ")),
+                       nearest.empty() ? fmt::format("add a [[{}]] of that name", input.kind)
+                                       : fmt::format("did you mean '{}'?", nearest));
+      return;
+    }
+    if (source->size().area() > 0) sizes.push_back(source->size());
+    try {
+      // The file names its source's file, so there must be one with those very samples.
+      entry.input_output(*source);
+    } catch (const Error& error) {
+      diagnostics_.add(entry.line, fmt::format("{}: {}", what, error.info().what), "", error.info().remedy);
+    }
+  }
+
+  document::Diagnostics diagnostics_;
   TableReader root_;
   Recipe& recipe_;
   std::map<std::string, int> lines_of_names_ = {{"contact_sheet", 0}};
@@ -312,6 +288,15 @@ class RecipeParser {
 };
 
 }  // namespace
+
+std::shared_ptr<Entry> numbered_entry(const Entry& entry, int number) {
+  std::shared_ptr<Entry> single = entry.clone();
+  single->name = fmt::format("{}_{}", entry.name, number);
+  for (std::size_t i = 0; i < single->output_count(); ++i)
+    single->output_path(i) = numbered_path(single->output_path(i), number);
+  single->take_later_seeds(number);
+  return single;
+}
 
 Recipe parse_recipe(std::string_view text, const std::string& name, const std::filesystem::path& folder) {
   if (text.size() > kMaxRecipeBytes) {
@@ -321,25 +306,7 @@ Recipe parse_recipe(std::string_view text, const std::string& name, const std::f
                  .limit = fmt::format("at most {} bytes", kMaxRecipeBytes),
                  .remedy = "split the recipe"});
   }
-  Mistakes mistakes(name);
-  check_toml(text, mistakes);
-  mistakes.throw_if_any();
-  toml::table root;
-  try {
-    root = toml::parse(text);
-  } catch (const toml::parse_error& error) {
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = std::string(error.description()),
-                 .where = fmt::format("{}:{}", name, error.source().begin.line),
-                 .limit = "TOML 1.0",
-                 .remedy = ""});
-  } catch (const BrokenToml&) {
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = "cannot be read as TOML",
-                 .where = name,
-                 .limit = "TOML 1.0",
-                 .remedy = "look for a bracket, a comma or a value too many or too few"});
-  }
+  const toml::table root = document::parse_toml(text, name);
   Recipe recipe;
   recipe.name = name;
   recipe.folder = folder;

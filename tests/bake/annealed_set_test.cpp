@@ -36,8 +36,7 @@ class AnnealedSet : public ::testing::Test {
     bool in_set = false;
     int told = 0;
     const auto watch = [&](const BakeEvent& event) {
-      if (const auto* started = std::get_if<JobStarted>(&event))
-        in_set = started->job.kind == JobKind::retarget;
+      if (const auto* started = std::get_if<JobStarted>(&event)) in_set = started->job.kind == "retarget";
       if (std::holds_alternative<BakeProgress>(event) && in_set && ++told == variants) stop.request_stop();
     };
     try {
@@ -97,8 +96,7 @@ TEST_F(AnnealedSet, DoesNotMakeAFinishedVariantAgain) {
 
   const auto resumed = bake_into(out).jobs;
   const auto set_of = [](const std::vector<JobRecord>& jobs) {
-    return std::find_if(jobs.begin(), jobs.end(), [](auto& job) { return job.kind == JobKind::retarget; })
-        ->tiles;
+    return std::find_if(jobs.begin(), jobs.end(), [](auto& job) { return job.kind == "retarget"; })->tiles;
   };
   const TemporaryFolder whole;
   auto expected = set_of(bake_into(whole).jobs);

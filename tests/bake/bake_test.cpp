@@ -12,6 +12,8 @@
 #include "fixtures.h"
 
 namespace bn {
+using namespace baking;
+
 namespace {
 
 using Contents = std::map<std::string, std::string>;
@@ -47,7 +49,7 @@ TEST(Bake, MakesWhatTheRecipeNamesAndItVerifies) {
   EXPECT_EQ(set.name, "set");
   ASSERT_EQ(set.tiles.size(), 9u);
   EXPECT_EQ(set.tiles[5].motion, (Offset{1, 0}));
-  EXPECT_EQ(set.step, auto_step({16, 16}).step);
+  EXPECT_EQ(set.facts.get<Offset>("step"), auto_step({16, 16}).step);
   EXPECT_EQ(set.files[3].tiles.at(0), set.tiles[5]);
   for (const TileRecord& tile : set.tiles) EXPECT_EQ(tile.energy, tile.lower_bound);
 }
@@ -64,7 +66,7 @@ TEST(Bake, TheSecondBakeDoesNothing) {
   const TemporaryFolder out;
   bake(small_recipe(), {.out_dir = out});
   const auto atlas_time = fs::last_write_time(out / "set/atlas.png");
-  EXPECT_TRUE(std::ranges::all_of(plan_bake(small_recipe(), {.out_dir = out}).jobs, &PlannedJob::stands));
+  EXPECT_TRUE(std::ranges::all_of(plan_bake(small_recipe(), {.out_dir = out}).jobs, &PlannedJob::up_to_date));
   EXPECT_EQ(skipped(bake(small_recipe(), {.out_dir = out})), 5);
   EXPECT_EQ(fs::last_write_time(out / "set/atlas.png"), atlas_time);
   EXPECT_EQ(contents_of(out), reference_contents());
@@ -81,7 +83,10 @@ TEST(Bake, AnEditedEntryRedoesWhatDependsOnItAndNothingElse) {
   const TemporaryFolder out;
   bake(small_recipe(), {.out_dir = out});
   Recipe edited = small_recipe();
-  edited.masks[1].options.seed = 8;
+  const auto other = std::make_shared<MaskEntry>(mask_of(edited, 1));
+  other->void_and_cluster.seed = 8;
+  *std::find_if(edited.entries.begin(), edited.entries.end(),
+                [&](auto& entry) { return entry->name == other->name; }) = other;
   const BakeResult result = bake(edited, {.out_dir = out});
   EXPECT_TRUE(result.jobs[0].skipped) << "the other mask";
   EXPECT_FALSE(result.jobs[1].skipped) << "the edited mask";
@@ -224,9 +229,7 @@ TEST(Bake, ReportsProgressThatNeverRunsBackwardsAndEndsAtOne) {
 
 TEST(MakeMask, WritesAFileThatVerifiesAndWhoseRecipeMakesItAgain) {
   const TemporaryFolder folder, again;
-  MaskEntry entry{.name = "mask", .options = {.size = {16, 8}, .seed = 3}, .outputs = {}};
-  entry.outputs = {{.path = (folder / "mask.png").string()}};
-  make_mask(entry);
+  make_entry(a_mask("mask", {.size = {16, 8}, .seed = 3}, folder / "mask.png"));
   EXPECT_EQ(failures(verify_path(folder / "mask.png")), "");
   const std::string recipe = read_image(folder / "mask.png").metadata->recipe;
   bake(parse_recipe(recipe, "embedded", again), {.out_dir = again});
@@ -236,19 +239,17 @@ TEST(MakeMask, WritesAFileThatVerifiesAndWhoseRecipeMakesItAgain) {
 TEST(MakeRetarget, WritesAFileThatVerifiesAndWhoseRecipeMakesItAgain) {
   const TemporaryFolder folder;
   fs::create_directory(folder / "tiles");
-  MaskEntry mask{.name = "mask", .options = {.size = {16, 16}}, .outputs = {}};
-  mask.outputs = {{.path = (folder / "mask.png").string()}};
-  make_mask(mask);
-  RetargetEntry entry{.name = "tile", .mask = "", .image = (folder / "mask.png").string()};
-  entry.options.radius = 3;
+  make_entry(a_mask("mask", {.size = {16, 16}}, folder / "mask.png"));
+  RetargetEntry entry = a_set("tile", folder / "mask.png");
+  entry.problem.radius = 3;
   entry.motion = 1;
   entry.outputs = {{.path = (folder / "tiles/atlas.png").string(), .kind = RetargetOutput::Kind::atlas},
                    {.path = (folder / "tiles/tile.png").string()}};
-  const JobRecord job = make_retarget(entry);
+  const JobRecord job = make_entry(entry);
   EXPECT_EQ(job.tiles.size(), 9u);
   EXPECT_EQ(failures(verify_path(folder)), "");
   const Metadata metadata = *read_image(folder / "tiles/atlas.png").metadata;
-  EXPECT_EQ(metadata.source, "../mask.png");
+  EXPECT_EQ(metadata.facts.get<std::string>("source"), "../mask.png");
   const std::string before = bytes_of(folder / "tiles/atlas.png");
   fs::remove(folder / "tiles/atlas.png");
   bake(parse_recipe(metadata.recipe, "embedded", folder / "tiles"), {.out_dir = folder / "tiles"});
@@ -257,15 +258,15 @@ TEST(MakeRetarget, WritesAFileThatVerifiesAndWhoseRecipeMakesItAgain) {
 
 TEST(WriteRetarget, WritesTheFileThatMakeRetargetMakes) {
   const TemporaryFolder out;
-  const MaskEntry mask{
-      .name = "m", .options = {.size = {32, 32}}, .outputs = {{.path = (out / "m.png").string()}}};
-  make_mask(mask);
-  RetargetEntry entry{.name = "t", .mask = "", .image = mask.outputs[0].path, .step = Offset{11, 7}};
+  make_entry(a_mask("m", {.size = {32, 32}}, out / "m.png"));
+  RetargetEntry entry = a_set("t", out / "m.png");
+  entry.step = Offset{11, 7};
+  entry.anneals = true;
   entry.anneal = AnnealMethod{.options = {.proposals = 100'000}};
   for (const Offset motion : {Offset{0, 0}, Offset{-1, 1}}) {
     entry.motion = motion == Offset{0, 0} ? 0 : 1;
     entry.outputs = {{.path = (out / "made.png").string(), .form = MoveForm::gather, .motion = motion}};
-    make_retarget(entry);
+    make_entry(entry);
     const FileContent made = read_image(out / "made.png");
 
     AnnealProblem problem;
@@ -298,21 +299,20 @@ TEST(WriteRetarget, WritesTheFileThatMakeRetargetMakes) {
 
 TEST(MakeMask, ChecksItsOptionsBeforeTheWork) {
   const TemporaryFolder folder;
-  MaskEntry sound{.name = "mask", .options = {.size = {16, 8}}};
-  sound.outputs = {{.path = (folder / "mask.png").string()}};
+  const MaskEntry sound = a_mask("mask", {.size = {16, 8}}, folder / "mask.png");
   const auto refused = [&](auto change, const std::string& says) {
     MaskEntry entry = sound;
     change(entry);
     try {
-      make_mask(entry);
+      make_entry(entry);
       ADD_FAILURE() << "accepted: " << says;
     } catch (const Error& error) {
       EXPECT_EQ(error.code(), ErrorCode::invalid_input);
       EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
     }
   };
-  refused([](MaskEntry& entry) { entry.options.sigma_px = 17.0; }, "sigma is 17 (allowed: 0.3..16)");
-  refused([](MaskEntry& entry) { entry.options.seed = ~std::uint64_t{0}; }, "");
+  refused([](MaskEntry& entry) { entry.void_and_cluster.sigma_px = 17.0; }, "sigma is 17 (allowed: 0.3..16)");
+  refused([](MaskEntry& entry) { entry.void_and_cluster.seed = ~std::uint64_t{0}; }, "");
   refused([&](MaskEntry& entry) { entry.outputs[0].path = (folder / "\xff.png").string(); }, "");
   refused([&](MaskEntry& entry) { entry.outputs[0].path = (folder / "mask.jpg").string(); }, ".png");
   EXPECT_TRUE(fs::is_empty(folder));
@@ -334,7 +334,7 @@ std::string notes_for(const std::string& image, RetargetEntry entry, const fs::p
   entry.image = image;
   entry.outputs = {{.path = out.string()}};
   std::string notes;
-  for (const std::string& note : make_retarget(entry).notes) notes += note + "\n";
+  for (const std::string& note : make_entry(entry).notes) notes += note + "\n";
   return notes;
 }
 
@@ -342,7 +342,7 @@ TEST(MakeRetarget, AcceptsUnusualSourcesWithANote) {
   const TemporaryFolder folder;
   const Extent size{16, 16};
   RetargetEntry plain;
-  plain.options.radius = 3;
+  plain.problem.radius = 3;
   const auto constant = make_picture(folder / "constant.png", size, [](int, int) { return 7; });
   EXPECT_NE(notes_for(constant, plain, folder / "a.png").find("constant"), std::string::npos);
   const auto checker = make_picture(folder / "checker.png", size, [](int x, int y) { return (x + y) % 2; });
@@ -354,7 +354,7 @@ TEST(MakeRetarget, AcceptsUnusualSourcesWithANote) {
   EXPECT_EQ(notes_for(rank, plain, folder / "d.png"), "");
   RetargetEntry unusual = plain;
   unusual.step = {{32, -16}};
-  unusual.options.radius = 9;
+  unusual.problem.radius = 9;
   const std::string notes = notes_for(rank, unusual, folder / "e.png");
   EXPECT_NE(notes.find("the step is 0"), std::string::npos) << notes;
   EXPECT_NE(notes.find("radius 9 reaches around the tile"), std::string::npos) << notes;

@@ -5,6 +5,8 @@
 #include "fixtures.h"
 
 namespace bn {
+using namespace baking;
+
 namespace {
 
 TEST(ContactSheet, HasASectionForEverySetAndLoneMask) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "bn/bake.h"
@@ -35,6 +36,36 @@ class TemporaryFolder {
  private:
   fs::path path_;
 };
+
+/// The index-th mask, or retarget set, of a recipe that has it.
+inline const MaskEntry& mask_of(const Recipe& recipe, std::size_t index) {
+  for (const auto& entry : recipe.entries) {
+    if (const auto* mask = dynamic_cast<const MaskEntry*>(entry.get()); mask && index-- == 0) return *mask;
+  }
+  throw std::out_of_range("no such mask");
+}
+inline const RetargetEntry& set_of(const Recipe& recipe, std::size_t index) {
+  for (const auto& entry : recipe.entries) {
+    if (const auto* set = dynamic_cast<const RetargetEntry*>(entry.get()); set && index-- == 0) return *set;
+  }
+  throw std::out_of_range("no such set");
+}
+
+/// A mask that is made outside of any recipe.
+inline MaskEntry a_mask(const std::string& name, VoidAndClusterOptions options, const fs::path& file) {
+  MaskEntry entry;
+  entry.name = name;
+  entry.void_and_cluster = options;
+  entry.outputs = {{.path = file.string()}};
+  return entry;
+}
+/// A retarget set of an image file.
+inline RetargetEntry a_set(const std::string& name, const fs::path& image) {
+  RetargetEntry entry;
+  entry.name = name;
+  entry.image = image.string();
+  return entry;
+}
 
 inline std::string bytes_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -17,8 +17,8 @@ TEST(Plan, NamesJobsInTheOrderTheyDependOnEachOther) {
   EXPECT_EQ(plan.jobs[2].name, "set");
   EXPECT_EQ(plan.jobs[2].files,
             (std::vector<std::string>{"set/tile.png", "set/atlas.png", "set/gather.png", "set/right.bin"}));
-  EXPECT_EQ(plan.jobs[4].kind, JobKind::contact_sheet);
-  for (const PlannedJob& job : plan.jobs) EXPECT_FALSE(job.stands);
+  EXPECT_EQ(plan.jobs[4].kind, "contact-sheet");
+  for (const PlannedJob& job : plan.jobs) EXPECT_FALSE(job.up_to_date);
   EXPECT_GT(plan.estimated_seconds, 0.0);
   EXPECT_GT(plan.memory_bytes, 0u);
   EXPECT_TRUE(fs::is_empty(out)) << "a plan writes nothing";
@@ -71,9 +71,9 @@ TEST(Plan, NeverReplacesASourceImage) {
   const std::string before = bytes_of(out / "x.png");
   expect_error("version = 1\n[[retarget]]\nname = 'r'\nradius = 2\nimage = 'x.png'\noutputs = ['./x.png']\n",
                {.out_dir = out}, ErrorCode::invalid_input, {"a.toml:2: ", "would be replaced by the output"});
-  RetargetEntry entry{.name = "r", .mask = "", .image = (out / "x.png").string()};
+  RetargetEntry entry = a_set("r", out / "x.png");
   entry.outputs = {{.path = entry.image}};
-  EXPECT_THROW(make_retarget(entry), Error);
+  EXPECT_THROW(make_entry(entry), Error);
   EXPECT_EQ(bytes_of(out / "x.png"), before);
 }
 

@@ -9,26 +9,25 @@ namespace {
 
 TEST(Recipe, IsReadAsWritten) {
   const Recipe recipe = small_recipe();
-  ASSERT_EQ(recipe.masks.size(), 2u);
-  ASSERT_EQ(recipe.retargets.size(), 2u);
-  const MaskEntry& small = recipe.masks[0];
-  EXPECT_EQ(small.options.size, (Extent{16, 16}));
-  EXPECT_EQ(small.options.sigma_px, 1.9);
+  ASSERT_EQ(recipe.entries.size(), 4u);
+  const MaskEntry& small = mask_of(recipe, 0);
+  EXPECT_EQ(small.void_and_cluster.size, (Extent{16, 16}));
+  EXPECT_EQ(small.void_and_cluster.sigma_px, 1.9);
   EXPECT_EQ(small.outputs.size(), 6u);
   EXPECT_EQ(small.outputs[1].type, SampleType::f32) << "the only type that EXR holds";
   EXPECT_EQ(small.outputs[2].type, SampleType::u16);
-  EXPECT_EQ(recipe.masks[1].options.seed, 7u);
-  const RetargetEntry& set = recipe.retargets[0];
+  EXPECT_EQ(mask_of(recipe, 1).void_and_cluster.seed, 7u);
+  const RetargetEntry& set = set_of(recipe, 0);
   EXPECT_FALSE(set.step.has_value());
   EXPECT_EQ(set.motion, 1);
   EXPECT_EQ(set.outputs[0].kind, RetargetOutput::Kind::tile);
   EXPECT_EQ(set.outputs[1].kind, RetargetOutput::Kind::atlas) << "what a set of motions makes by default";
   EXPECT_EQ(set.outputs[2].form, MoveForm::gather);
   EXPECT_EQ(set.outputs[3].motion, (Offset{1, 0}));
-  const RetargetEntry& euclidean = recipe.retargets[1];
+  const RetargetEntry& euclidean = set_of(recipe, 1);
   EXPECT_EQ(*euclidean.step, (Offset{4, 3}));
-  EXPECT_EQ(euclidean.options.reach, Reach::euclidean);
-  EXPECT_EQ(euclidean.options.metric, Metric::l2);
+  EXPECT_EQ(euclidean.problem.reach, Reach::euclidean);
+  EXPECT_EQ(euclidean.problem.metric, Metric::l2);
   EXPECT_EQ(euclidean.outputs[0].kind, RetargetOutput::Kind::tile) << "what a single motion makes by default";
 }
 
@@ -76,7 +75,7 @@ outputs = ["a.png"]
 
 TEST(Recipe, AnnealingIsReadAsWritten) {
   const Recipe recipe = parse_recipe(kAnnealed, "a.toml", "");
-  const AnnealMethod& anneal = recipe.retargets.at(0).anneal.value();
+  const AnnealMethod& anneal = set_of(recipe, 0).anneal;
   EXPECT_EQ(anneal.channels, (std::vector<int>{2, 0}));
   EXPECT_EQ(anneal.weights, (std::vector<int>{3, 1}));
   EXPECT_EQ(anneal.residual_sigma_px, 1.5);
@@ -122,29 +121,29 @@ TEST(Recipe, WhatAnnealingRefusesIsNamed) {
   says("factor = 0.9", "slope = 1", {"slope", "only with linear"});
   says("schedule = \"kirkpatrick\"", "schedule = \"boil\"", {"schedule is 'boil'", "\"hajek\""});
   says("stages = 50", "stages = 0", {"stages", "1..1000000"});
-  says("tried_per_stage = 10000000000", "tried_per_stage = -1", {"tried_per_stage", "at least 1"});
-  says("proposals = 10000000000", "proposals = 0", {"proposals is 0", "1..4611686018427387904"});
+  says("tried_per_stage = 10000000000", "tried_per_stage = -1", {"tried_per_stage is -1", "1 or above"});
+  says("proposals = 10000000000", "proposals = 0", {"proposals is 0", "1..2^62"});
   says("initial_acceptance = 1", "start_temperature = 0.1", {"end_temperature is 0.25", "at most 0.1"});
   says("chains = 8", "chains = 0", {"chains is 0", "1..256"});
   says("chains = 8\ncoupling = \"independent\"", "coupling = \"tempering\"", {"chains", "2..256"});
   says("swap_distance = 7", "swap_distance = 13", {"swap_distance is 13", "0..12"});
   says("stop_after = 5000000000", "stop_after = 20000000000", {"stop_after", "0..10000000000"});
   says("weights = [3, 1]", "weights = [3]", {"weights has 1 elements", "one for each channel"});
-  says("weights = [3, 1]", "weights = [3, 0]", {"weights is no such list", "1..1000"});
-  says("channels = [2, 0]", "channels = []", {"channels is no such list"});
+  says("weights = [3, 1]", "weights = [3, 0]", {"weights is [3, 0]", "1..1000"});
+  says("channels = [2, 0]", "channels = []", {"channels has 0 elements", "1..16 integers"});
   says("channels = [2, 0]", "channels = [0, 1]\nchannel = 2", {"channels stands beside channel"});
   says("metric = \"l2\"", "", {"residual_sigma", "l2"});
   says("residual_sigma = 1.5", "residual_sigma = 0.1", {"residual_sigma is 0.1", "0.3..8"});
-  says("method = \"anneal\"", "", {"coupling needs annealing", "channels needs annealing"});
+  says("method = \"anneal\"", "",
+       {"coupling does not apply", "channels does not apply", "only with method = \"anneal\""});
 }
 
 TEST(Recipe, GapIsAShareOrPercent) {
   const auto gap = [](const std::string& value) {
-    return parse_recipe(
-               "version = 1\n[[retarget]]\nname = 'a'\nimage = 'x.png'\noutputs = ['a.png']\ngap = " + value,
-               "r", "")
-        .retargets[0]
-        .options.gap;
+    const Recipe recipe = parse_recipe(
+        "version = 1\n[[retarget]]\nname = 'a'\nimage = 'x.png'\noutputs = ['a.png']\ngap = " + value, "r",
+        "");
+    return set_of(recipe, 0).problem.gap;
   };
   EXPECT_EQ(gap("0.005"), 0.005);
   EXPECT_EQ(gap("\"0.5%\""), 0.005);
@@ -223,15 +222,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{4, "", {"mask 'm': size is missing", "each 1..16384"}, 2},
         Mistake{4, "size = [0, 16]", {"size is [0, 16]", "each 1..16384"}},
         Mistake{4, "size = [16, 16385]", {"size is [16, 16385]", "each 1..16384"}},
-        Mistake{4, "size = 16", {"size is no pair of integers", "[x, y]"}},
-        Mistake{4, "size = [16, 16.0]", {"size is no pair of integers"}},
+        Mistake{4, "size = 16", {"size is an integer", "[width, height]"}},
+        Mistake{4, "size = [16, 16.0]", {"size is no such list"}},
         Mistake{4, "size = [16, 16]\nsigma = 0.2", {"sigma is 0.2", "0.3..16"}, 5},
         Mistake{4, "size = [16, 16]\nsigma = nan", {"sigma is nan", "0.3..16"}, 5},
         Mistake{4, "size = [16, 16]\nsigma = inf", {"sigma is inf", "0.3..16"}, 5},
         Mistake{4, "size = [16, 16]\nsigma = 'big'", {"sigma is a string", "a number 0.3..16"}, 5},
         Mistake{4, "size = [16, 16]\nsigam = 1.5", {"unknown key 'sigam'", "did you mean 'sigma'?"}, 5},
         Mistake{4, "size = [16, 16]\ninitial_density = 0.6", {"initial_density is 0.6", "0..0.5"}, 5},
-        Mistake{4, "size = [16, 16]\nseed = -1", {"seed is -1", "0..9223372036854775807"}, 5},
+        Mistake{4, "size = [16, 16]\nseed = -1", {"seed is -1", "0..2^63-1"}, 5},
         Mistake{4, "size = [16, 16]\ncutoff = 65", {"cutoff is 65", "0..64"}, 5},
         Mistake{4, "size = [16, 16]\nmethod = 'void-and-clutser'", {"did you mean \"void-and-cluster\"?"}, 5},
         Mistake{5, "", {"outputs is missing"}, 2},
@@ -259,11 +258,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{8, "", {"mask is missing", "either mask = \"name\" or image"}, 6},
         Mistake{8, "mask = 'm'\nimage = 'x.png'", {"image stands beside a mask"}, 9},
         Mistake{8, "mask = 'n'", {"there is no mask 'n'", "allowed: m", "did you mean 'm'?"}, 6},
-        Mistake{8, "mask = 'm'\nchannel = 1", {"channel needs an image"}, 9},
+        Mistake{8, "mask = 'm'\nchannel = 1", {"channel does not apply", "only with image = \"path\""}, 9},
         Mistake{8, "image = 'x.png'\nchannel = 64", {"channel is 64", "0..63"}, 9},
-        Mistake{8, "image = 'x.png'\nlevels = '8bit'", {"levels needs a mask"}, 9},
+        Mistake{
+            8, "image = 'x.png'\nlevels = '8bit'", {"levels does not apply", "only with mask = \"name\""}, 9},
         Mistake{8, "mask = 'm'\nstep = 'autos'", {"step is 'autos'", "\"auto\", or [x, y]"}, 9},
-        Mistake{8, "mask = 'm'\nstep = [1, 2, 3]", {"step is no pair"}, 9},
+        Mistake{8, "mask = 'm'\nstep = [1, 2, 3]", {"step is no such list"}, 9},
         Mistake{8, "mask = 'm'\nradius = 0", {"radius is 0", "1..32"}, 9},
         Mistake{8, "mask = 'm'\nradius = 33", {"radius is 33", "1..32"}, 9},
         Mistake{8, "mask = 'm'\nradius = 6.0", {"radius is a float", "an integer 1..32"}, 9},
@@ -271,13 +271,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{8, "mask = 'm'\nmetric = 'l3'", {"metric is 'l3'", "\"l1\", \"l2\""}, 9},
         Mistake{8, "mask = 'm'\nwrap = 1", {"wrap is an integer", "true or false"}, 9},
         Mistake{8, "mask = 'm'\ngap = -0.1", {"gap is -0.1", "0..1"}, 9},
-        Mistake{8, "mask = 'm'\ngap = '5'", {"gap is no share", "\"0%\"..\"100%\""}, 9},
+        Mistake{8, "mask = 'm'\ngap = '5'", {"gap is '5'", "\"0%\"..\"100%\""}, 9},
         Mistake{9, "motion = 9", {"motion is 9", "0..8"}},
         Mistake{9, "motion = 8", {"motion 8 is larger than the tile of 16x16", "0..7"}, 6},
         Mistake{10,
                 "outputs = [{ path = 'r.png', kind = 'tile', motion = [2, 0] }]",
                 {"motion is [2, 0]", "each -1..1"}},
-        Mistake{10, "outputs = [{ path = 'r.png', motion = [1, 0] }]", {"motion needs a tile"}},
+        Mistake{10,
+                "outputs = [{ path = 'r.png', motion = [1, 0] }]",
+                {"motion does not apply", "only with kind = \"tile\""}},
         Mistake{10, "outputs = [{ path = 'r.png', form = 'gathr' }]", {"did you mean \"gather\"?"}}));
 
 TEST(RecipeMistakes, AreAllNamedInTheOrderOfTheLines) {

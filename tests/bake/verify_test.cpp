@@ -3,11 +3,14 @@
 #include <fstream>
 #include <iterator>
 
-#include "bake/job.h"
+#include "bake/inputs.h"
+#include "bake/kinds/retarget_source.h"
 #include "bn/error.h"
 #include "fixtures.h"
 
 namespace bn {
+using namespace baking;
+
 namespace {
 
 class Verify : public testing::Test {
@@ -122,7 +125,7 @@ TEST_F(Verify, AFalseStartEnergyIsFound) {
 
 TEST_F(Verify, ABoundAboveTheOptimumIsFound) {
   // A worse permutation that claims to be optimal: everything fits but the bound.
-  const Source source = read_source(folder_ / "masks/small.png", {0}, {});
+  const Source source = source_of(read_input(folder_ / "masks/small.png", {}), {0});
   tamper("set/tile.png", [&](Image& image, Metadata& metadata) {
     for (std::size_t pixel = 0; pixel < 256; ++pixel) set_move(image, pixel, {0, 0});
     metadata.tiles[0].energy = metadata.tiles[0].lower_bound = metadata.tiles[0].start_energy;
@@ -161,16 +164,27 @@ TEST_F(Verify, AnEditedRecipeIsFound) {
   EXPECT_EQ(failed("odd.png"), "recipe ");
 }
 
+Facts without(const Facts& facts, std::string_view key) {
+  Facts rest;
+  for (const auto& [name, value] : facts) {
+    if (name != key) rest.add(name, value);
+  }
+  return rest;
+}
+
 TEST_F(Verify, MetadataThatContradictTheImageFailWithoutACrash) {
   const std::vector<std::function<void(Image&, Metadata&)>> changes = {
       [](Image&, Metadata& m) { m.tiles.clear(); },
       [](Image&, Metadata& m) { m.tiles.pop_back(); },
-      [](Image&, Metadata& m) { m.step.reset(); },
-      [](Image&, Metadata& m) { m.radius.reset(); },
-      [](Image&, Metadata& m) { m.form.reset(); },
-      [](Image&, Metadata& m) { m.source.reset(); },
-      [](Image&, Metadata& m) { m.source = "/dev/null"; },
-      [](Image&, Metadata& m) { m.source_channel = 9; },
+      [](Image&, Metadata& m) { m.facts = without(m.facts, "step"); },
+      [](Image&, Metadata& m) { m.facts = without(m.facts, "radius"); },
+      [](Image&, Metadata& m) { m.facts = without(m.facts, "form"); },
+      [](Image&, Metadata& m) { m.facts = without(m.facts, "source"); },
+      [](Image&, Metadata& m) { m.facts = without(m.facts, "source"), m.facts.add("source", "/dev/null"); },
+      [](Image&, Metadata& m) {
+        m.facts = without(m.facts, "source_channel"), m.facts.add("source_channel", 9);
+      },
+      [](Image&, Metadata& m) { m.facts.add("colour", 7); },
       [](Image&, Metadata& m) { m.kind = "mask"; },
       [](Image&, Metadata& m) { m.kind = "something"; },
       [](Image&, Metadata& m) {
@@ -206,9 +220,7 @@ TEST_F(Verify, FilesOfOthersAndRubbishAreFailedItems) {
 
 TEST_F(Verify, TheManifestMustMatchTheFiles) {
   // An older result of another seed, sound in itself, in place of the listed one.
-  MaskEntry other{.name = "odd", .options = {.size = {12, 9}, .seed = 8}, .outputs = {}};
-  other.outputs = {{.path = (folder_ / "odd.png").string()}};
-  make_mask(other);
+  make_entry(a_mask("odd", {.size = {12, 9}, .seed = 8}, folder_ / "odd.png"));
   std::string checks;
   for (const VerifyItem& item : verify_path(folder_)) {
     if (!item.pass) checks += item.file.filename().string() + " " + item.check + ", ";

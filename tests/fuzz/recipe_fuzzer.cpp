@@ -34,25 +34,25 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     require(std::string_view(error.what()).starts_with("input"), "an error says where");
     return 0;
   }
-  for (const MaskEntry& mask : recipe.masks) {
-    require(mask.options.size.width >= 1 && mask.options.size.height <= 16384, "sizes are in range");
-    require(mask.options.sigma_px >= 0.3 && mask.options.sigma_px <= 16.0, "sigma is in range");
-    require(!mask.outputs.empty(), "a mask has a file");
-    for (const MaskOutput& output : mask.outputs) check_inside(output.path);
-  }
-  for (const RetargetEntry& set : recipe.retargets) {
+  for (const auto& entry : recipe.entries) {
+    require(entry->output_count() > 0, "an entry has a file");
+    for (std::size_t i = 0; i < entry->output_count(); ++i) check_inside(entry->path_of(i));
+    const Options options = options_of(*entry);
+    for (const Option& option : options.list())
+      require(!option.applies() || out_of_range(option, option.get()).empty(), "options are in range");
+    const auto* retarget = dynamic_cast<const RetargetEntry*>(entry.get());
+    if (!retarget) continue;
+    const RetargetEntry& set = *retarget;
     require(set.mask.empty() != set.image.empty(), "a set has one source");
-    require(set.options.radius >= 1 && set.options.radius + set.motion <= 127, "moves fit 8 bits");
-    require(set.options.gap >= 0.0 && set.options.gap <= 1.0, "the gap is a share");
-    for (const RetargetOutput& output : set.outputs) check_inside(output.path);
-    if (!set.anneal) continue;
-    const AnnealMethod& anneal = *set.anneal;
+    require(set.problem.radius + set.motion <= 127, "moves fit 8 bits");
+    if (!set.anneals) continue;
+    const AnnealMethod& anneal = set.anneal;
     check_anneal_options(anneal.options);
     require(anneal.channels.size() <= 16, "channels are few");
     require(
         anneal.weights.empty() || anneal.weights.size() == std::max<std::size_t>(1, anneal.channels.size()),
         "each channel has a weight");
-    require(anneal.residual_sigma_px == 0.0 || set.options.metric == Metric::l2, "residuals are of squares");
+    require(anneal.residual_sigma_px == 0.0 || set.problem.metric == Metric::l2, "residuals are of squares");
     require(anneal.seconds == 0.0, "a recipe knows no clock");
   }
   const std::string text = recipe_text(recipe);

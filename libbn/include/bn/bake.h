@@ -12,18 +12,18 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "bn/anneal.h"
 #include "bn/execution.h"
-#include "bn/grid.h"
-#include "bn/noise.h"
-#include "bn/retarget.h"
+#include "bn/kind.h"
+#include "bn/kinds.h"
 #include "bn/texture.h"
+#include "bn/value.h"
 
 namespace bn {
 
@@ -34,84 +34,15 @@ inline constexpr int kRecipeVersion = 1;
 
 /// Limits that a recipe from anywhere is held to.
 inline constexpr std::size_t kMaxRecipeBytes = std::size_t{1} << 20;
-inline constexpr int kMaxRecipeEntries = 1024;  ///< masks, and as many retarget sets
+inline constexpr int kMaxRecipeEntries = 1024;  ///< tables of each kind
 inline constexpr int kMaxOutputs = 64;          ///< of one entry
-
-/// One file of a mask.
-struct MaskOutput {
-  std::string path;  ///< relative to the output folder, extension decides the format
-  SampleType type = SampleType::u8;
-  int line = 0;  ///< in the recipe; 0: made by a program
-};
-
-/// `[[mask]]`: a blue-noise mask and its files. The only method so far is void-and-cluster.
-struct MaskEntry {
-  std::string name;
-  VoidAndClusterOptions options = {};
-  std::vector<MaskOutput> outputs = {};
-  int line = 0;
-};
-
-/// What a pixel of a retarget tile says: where its seed goes, or where its seed comes from.
-enum class MoveForm { scatter, gather };
-std::string_view name_of(MoveForm form);
-std::string_view name_of(Reach reach);
-std::string_view name_of(Metric metric);
-
-/// One file of a retarget set.
-struct RetargetOutput {
-  enum class Kind {
-    tile,   ///< the tile of one motion
-    atlas,  ///< all motions, (2 range + 1) tiles a row, tile (m.x + range, m.y + range)
-  };
-  std::string path;
-  Kind kind = Kind::tile;
-  MoveForm form = MoveForm::scatter;
-  Offset motion = {};  ///< of a tile; (0, 0) is the plain retarget tile
-  int line = 0;
-};
-
-/// `method = "anneal"` of a retarget entry: what bn/anneal.h anneals, and with which options.
-struct AnnealMethod {
-  AnnealOptions options = {};  ///< custom, lower_bound and checkpoint are not used
-  /// Channels of the image, whose weighted sum is the energy; empty: the entry's one channel, of weight 1.
-  std::vector<int> channels = {};
-  std::vector<int> weights = {};   ///< one a channel, 1..1000; empty: 1 each
-  double residual_sigma_px = 0.0;  ///< AnnealProblem's
-  /// The rest is no part of a recipe, as it changes no byte once the budget is known.
-  double seconds =
-      0.0;  ///< above 0: a budget by the clock in place of options.proposals; make_retarget() only
-  /// Where a run keeps its checkpoint, and goes on from if it is there; empty: nowhere. A bake sets it
-  /// itself, beside the entry's first output.
-  std::filesystem::path checkpoint = {};
-  AnnealTrace* trace = nullptr;  ///< of one tile
-};
-
-/// `[[retarget]]`: the retarget tiles of one source for every motion within a range.
-struct RetargetEntry {
-  std::string name;
-  /// The source: the name of a mask of this recipe ...
-  std::string mask;
-  /// ... or an image file, relative to Recipe::folder, and its channel. One of the two is empty.
-  std::string image;
-  int channel = 0;
-  /// For a mask: the sample type whose levels the tiles are optimised for, which is what the
-  /// renderer reads; the mask must have an output of it. An image has its own type.
-  SampleType levels = SampleType::u8;
-  std::optional<Offset> step = {};          ///< none: auto_step() of the source's size
-  RetargetOptions options = {};             ///< step and motion are ignored
-  std::optional<AnnealMethod> anneal = {};  ///< none: the exact solver, with options.gap
-  int motion = 0;                           ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
-  std::vector<RetargetOutput> outputs = {};
-  int line = 0;
-};
 
 struct Recipe {
   std::string name;              ///< file name for messages
   std::filesystem::path folder;  ///< what `image` paths are relative to
   std::string text;              ///< as read, goes whole into the manifest
-  std::vector<MaskEntry> masks;
-  std::vector<RetargetEntry> retargets;
+  /// In the order of the kinds, and of the text within a kind. Shared, since nobody changes them.
+  std::vector<std::shared_ptr<const Entry>> entries;
   std::string contact_sheet = "contact_sheet.png";  ///< empty: none
 };
 
@@ -125,34 +56,34 @@ Recipe parse_recipe(std::string_view text, const std::string& name, const std::f
 /// parse_recipe() of a file. Errors: also io, and over_limit above kMaxRecipeBytes.
 Recipe read_recipe(const std::filesystem::path& path);
 
+/// The number-th of the entries that a table with `count` stands for: its name and paths have the number, its
+/// seeds are later ones. Errors: invalid_input (a path without one place for a number, as in mask_%03d.png).
+std::shared_ptr<Entry> numbered_entry(const Entry& entry, int number);
+
 /// A recipe as TOML with every key written out: parsing it gives the same entries back.
 std::string recipe_text(const Recipe& recipe);
 
 // --- plan ----------------------------------------------------------------------------------------
 
-enum class JobKind { mask, retarget, contact_sheet };
-std::string_view name_of(JobKind kind);  ///< "mask", "retarget", "contact-sheet"
-
 /// One step of a bake.
 struct PlannedJob {
-  JobKind kind;
-  int entry = 0;                        ///< index into Recipe::masks or Recipe::retargets
+  std::string kind;                     ///< the entry's kind: "mask", "retarget"; or "contact-sheet"
   std::string name;                     ///< the entry's name
   std::vector<std::string> files = {};  ///< relative to the output folder, in the order they are written
   double estimated_seconds = 0.0;       ///< on one core; a guide for progress, not a promise
   std::uint64_t memory_bytes = 0;       ///< estimated peak
-  bool stands = false;                  ///< results of an earlier bake stand, so the job would be skipped
+  bool up_to_date = false;              ///< results of an earlier bake hold, so the job would be skipped
 };
 
 struct BakePlan {
-  std::vector<PlannedJob> jobs;    ///< in dependency order: masks, retarget sets, contact sheet
-  double estimated_seconds = 0.0;  ///< of the jobs that do not stand, on one core
+  std::vector<PlannedJob> jobs;    ///< in the order in which they are done: what others build on comes first
+  double estimated_seconds = 0.0;  ///< of the jobs that are not up to date, on one core
   std::uint64_t memory_bytes = 0;
 };
 
 struct BakeOptions {
   std::filesystem::path out_dir = "out";  ///< made if missing, with its parents
-  bool force = false;                     ///< do every job again, whatever stands
+  bool force = false;                     ///< do every job again, also those that are up to date
 };
 
 /// What bake() would do, found without writing or computing: also checks everything that needs the
@@ -172,18 +103,13 @@ struct FileRecord {
 
 /// What became of a job.
 struct JobRecord {
-  JobKind kind = JobKind::mask;
+  std::string kind;  ///< as PlannedJob::kind
   std::string name;
-  bool skipped = false;                           ///< its results stood already
-  double seconds = 0.0;                           ///< wall time of making it; of the earlier bake if skipped
-  std::optional<Offset> step = {};                ///< of a retarget set, `auto` resolved
-  std::optional<std::int64_t> orbit_length = {};  ///< of that step
+  bool skipped = false;  ///< its results were up to date
+  double seconds = 0.0;  ///< wall time of making it; of the earlier bake if skipped
+  Facts facts = {};      ///< Made::facts
   std::vector<FileRecord> files = {};
-  std::vector<TileRecord> tiles = {};          ///< of a retarget set: every motion, row by row
-  std::optional<std::int64_t> proposals = {};  ///< the budget of each tile that was annealed now
-  /// Of the plain tile, annealed now: computed afresh from its moves. Equals the energy that the run kept by
-  /// adding changes; a job of which a tile's does not fails (verification_failed).
-  std::optional<std::int64_t> recomputed_energy = {};
+  std::vector<TileRecord> tiles = {};   ///< Made::tiles
   std::vector<std::string> notes = {};  ///< what a user should know: a constant source, no permutation, ...
 };
 
@@ -228,16 +154,27 @@ using BakeEvents = std::function<void(const BakeEvent&)>;
 BakeResult bake(const Recipe& recipe, const BakeOptions& options, const Execution& execution = {},
                 const BakeEvents& events = {});
 
-/// Makes one mask or one retarget set (entry.image; entry.mask must be empty) through the same path
-/// as a bake, without manifest, lock or contact sheet, and never skips. Output paths may lead
-/// anywhere, entry.image is relative to the current folder; the recipe inside each file makes that
-/// file again when saved beside it. Errors: as bake().
-JobRecord make_mask(const MaskEntry& entry, const Execution& execution = {}, const BakeEvents& events = {});
-JobRecord make_retarget(const RetargetEntry& entry, const Execution& execution = {},
-                        const BakeEvents& events = {});
+/// Makes one entry, whose inputs are files, through the same path as a bake, without manifest, lock or
+/// contact sheet, and never skips. Output paths may lead anywhere, input files are relative to the current
+/// folder; the recipe inside each file makes that file again when saved beside it. Errors: as bake().
+JobRecord make_entry(const Entry& entry, const Execution& execution = {}, const BakeEvents& events = {});
+
+/// Makes one entry in memory: every output's picture with the metadata that its file would carry, nothing
+/// written. `recipe_folder` is what input files are relative to. Errors: as bake().
+struct BakedFile {
+  std::string path;
+  Image image;
+  Metadata metadata;
+};
+struct BakedEntry {
+  JobRecord record;
+  std::vector<BakedFile> files;
+};
+BakedEntry bake_entry(const Entry& entry, const Execution& execution = {});
+
 /// Writes `tile`, which was made elsewhere (an Annealing that was watched), as the one output of `entry`, a
 /// tile. That entry.anneal makes this tile again is the caller's word; its permutation and energies are
-/// recomputed, its lower bound is bn verify's to check. Errors: as make_retarget(), and verification_failed.
+/// recomputed, its lower bound is bn verify's to check. Errors: as make_entry(), and verification_failed.
 JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile,
                          const Execution& execution = {});
 

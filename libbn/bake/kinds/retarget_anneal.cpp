@@ -1,10 +1,11 @@
-#include "bake/anneal_job.h"
+// A retarget entry that is annealed: its problem for bn/anneal.h, its checkpoint file, its lower bounds.
 
 #include <fmt/format.h>
 
+#include "bake/kinds/retarget_source.h"
 #include "bn/error.h"
 
-namespace bn {
+namespace bn::baking {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,13 +35,13 @@ auto naming_checkpoint(const fs::path& path, Body body) {
 }  // namespace
 
 AnnealProblem anneal_problem(const RetargetEntry& entry, const Source& source) {
-  const AnnealMethod& method = *entry.anneal;
+  const AnnealMethod& method = entry.anneal;
   AnnealProblem problem;
   for (std::size_t c = 0; c < source.levels.size(); ++c) {
     problem.channels.push_back(
         {.levels = source.levels[c].value, .weight = method.weights.empty() ? 1 : method.weights.at(c)});
   }
-  problem.retarget = entry.options;
+  problem.retarget = entry.problem;
   problem.retarget.step = step_of(entry, source);
   problem.retarget.motion = {0, 0};
   problem.residual_sigma_px = method.residual_sigma_px;
@@ -49,7 +50,7 @@ AnnealProblem anneal_problem(const RetargetEntry& entry, const Source& source) {
 
 std::int64_t energy_of(const RetargetEntry& entry, const Source& source, const Grid<Offset>& move,
                        const RetargetOptions& options) {
-  if (!entry.anneal) return retarget_energy(source.levels[0].value, move, options);
+  if (!entry.anneals) return retarget_energy(source.first(), move, options);
   AnnealProblem problem = anneal_problem(entry, source);
   problem.retarget = options;
   return anneal_energy(problem, move);
@@ -73,7 +74,7 @@ std::vector<std::int64_t> anneal_bounds(const AnnealProblem& problem, int motion
 
 std::vector<RetargetTile> anneal_tiles(const RetargetEntry& entry, const Source& source,
                                        const Execution& execution) {
-  const AnnealMethod& method = *entry.anneal;
+  const AnnealMethod& method = entry.anneal;
   const AnnealProblem problem = anneal_problem(entry, source);
   AnnealOptions options = method.options;
   options.checkpoint = {};
@@ -100,7 +101,7 @@ std::vector<RetargetTile> anneal_tiles(const RetargetEntry& entry, const Source&
 RetargetEntry with_budget_found(const RetargetEntry& entry, const Source& source,
                                 const Execution& execution) {
   RetargetEntry found = entry;
-  AnnealMethod& method = *found.anneal;
+  AnnealMethod& method = found.anneal;
   const std::string checkpoint = read_checkpoint(method.checkpoint);
   if (!checkpoint.empty()) {
     method.options.proposals =
@@ -116,4 +117,4 @@ RetargetEntry with_budget_found(const RetargetEntry& entry, const Source& source
   return found;
 }
 
-}  // namespace bn
+}  // namespace bn::baking

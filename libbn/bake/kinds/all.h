@@ -1,0 +1,12 @@
+// The kinds that ship, each defined in the file of its name.
+
+#pragma once
+
+#include "bn/kind.h"
+
+namespace bn::baking {
+
+const Kind& mask_kind();
+const Kind& retarget_kind();
+
+}  // namespace bn::baking

@@ -1,0 +1,458 @@
+// [[retarget]]: the retarget tiles of one mask or image, for every motion within a range.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bake/kinds/all.h"
+#include "bake/kinds/retarget_source.h"
+#include "bn/error.h"
+#include "bn/kinds.h"
+
+namespace bn {
+
+using namespace baking;
+
+std::string_view name_of(MoveForm form) { return form == MoveForm::scatter ? "scatter" : "gather"; }
+std::string_view name_of(Reach reach) { return reach == Reach::chebyshev ? "chebyshev" : "euclidean"; }
+std::string_view name_of(Metric metric) { return metric == Metric::l1 ? "l1" : "l2"; }
+
+const Kind& baking::retarget_kind() {
+  static const Kind kind{
+      .table = "retarget",
+      .title = "Retarget tiles",
+      .verb = "retarget",
+      .summary = "Make the retarget tiles of a mask, with a proof of how good they are.",
+      .details =
+          "A retarget tile says where the seed of each pixel goes so that seeds sorted like this frame's "
+          "dither mask are "
+          "sorted like the next frame's, which is the same mask moved by the step. The tile is a bijection "
+          "of the torus, "
+          "moves nothing farther than the radius, and has the least energy possible; lower_bound is the "
+          "proof. Any image "
+          "serves as a mask: 8 bit, 16 bit or float.\n\n"
+          "With --motion N > 0 the printed energies are those of motion 0,0, optimal speaks for all, and "
+          "--json lists "
+          "every motion.",
+      .examples =
+          {{"bn retarget mask.png --step 48,36 --radius 6 -o tile.png",
+            "the optimal tile for one dither step"},
+           {"bn retarget mask.png --motion 4 -o atlas.png",
+            "all 81 motions of -4..4 pixels in one 9x9 atlas"},
+           {"bn retarget mask.png --channel 0 --step 48,36 --radius 6",
+            "only the figures; nothing is written"},
+           {"bn retarget large.exr --gap 0.5% -o tile.png --json",
+            "stop within a certified 0.5 % of the optimum"},
+           {"bn retarget mask.png --method anneal --schedule kirkpatrick --seconds 2 --seed 1 -o tile.png",
+            "anneal for two seconds; Ctrl-C and the same command again go on from tile.png.checkpoint"},
+           {"bn retarget rgb.png --method anneal --channels 0,1,2 --weights 2,4,1 --proposals 1e9 -o "
+            "tile.png",
+            "one tile for three channels at once"},
+           {"bn retarget mask.png --method anneal --metric l2 --residual-sigma 1.5 --proposals 1e8 -o "
+            "tile.png",
+            "the least difference as seen through a blur"}},
+      .make = [] { return std::make_shared<RetargetEntry>(); },
+      .one_at_a_time = true};
+  return kind;
+}
+
+const Kind& RetargetEntry::kind() const { return baking::retarget_kind(); }
+
+// --- options ---------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr int kMaxStep = 1 << 24;  // far above any tile's side; keeps every product within 64 bits
+constexpr std::int64_t kMany = std::numeric_limits<std::int64_t>::max();
+constexpr double kAny = std::numeric_limits<double>::infinity();
+
+const std::vector<std::pair<std::string, SampleType>> kSampleTypes = {
+    {"8bit", SampleType::u8}, {"16bit", SampleType::u16}, {"float", SampleType::f32}};
+
+/// The options that only annealing has. `when` says whether the entry anneals.
+void declare_annealing(Options& options, RetargetEntry& entry) {
+  AnnealMethod& method = entry.anneal;
+  AnnealOptions& run = method.options;
+  ScheduleParameters& parameters = run.parameters;
+  const std::size_t first = options.list().size();
+  constexpr std::size_t kMaxChannels = 16;
+  options
+      .integers("channels", method.channels, 0, 63, kMaxChannels,
+                "Channels of the image; the energy is the weighted sum over them.")
+      .without("channel")
+      .if_unset("`channel` alone");
+  options
+      .integers("weights", method.weights, 1, 1000, kMaxChannels,
+                "One for each channel, of its differences in levels.")
+      .if_unset("1 each");
+  options
+      .real("residual_sigma", method.residual_sigma_px, 0.0, 8.0,
+            "0, or 0.3 and above: minimise what a Gaussian blur of this width leaves of the difference; "
+            "needs metric l2.")
+      .in("pixels");
+  std::vector<std::string> schedules;
+  for (const auto schedule : schedule_names()) schedules.emplace_back(schedule);
+  options.word(
+      "schedule", std::move(schedules), "How annealing cools.", [&run] { return Value(run.schedule); },
+      [&run](const Value& given) { run.schedule = std::get<std::string>(given); });
+  Option& factor =
+      options.real("factor", parameters.factor, 0.0, 1.0,
+                   "The factor a of exponential and inverse (a proposal) or of kirkpatrick (a stage; below "
+                   "1), in place of one that meets the end temperature.");
+  factor.above_least = true;
+  options.real("slope", parameters.slope, 0.0, kAny,
+               "Of linear: the fall of the temperature with each proposal.");
+  options.real("hajek_c", parameters.hajek_c, 0.0, kAny, "The constant c of hajek.").above_least = true;
+  options
+      .integer("stages", parameters.stages, 1, 1'000'000,
+               "Of kirkpatrick: so many stages share the proposals.")
+      .if_unset("100");
+  options
+      .integer("accepted_per_stage", parameters.accepted_per_stage, 1, kMany,
+               "Of kirkpatrick: a stage ends after so many accepted swaps.")
+      .if_unset("0.2 % of a stage");
+  options
+      .integer("tried_per_stage", parameters.tried_per_stage, 1, kMany,
+               "Of kirkpatrick: or after so many proposals.")
+      .if_unset("proposals / stages");
+  options
+      .integer("frozen_stages", parameters.frozen_stages, 1, 1'000'000,
+               "Of kirkpatrick: the run ends after so many stages in a row without a change.")
+      .if_unset("3");
+  options
+      .integer("proposals", run.proposals, 1, std::int64_t{1} << 62,
+               "Budget of each tile and chain, in proposals of a swap.")
+      .formerly("budget");
+  options.seed("seed", run.seed, "Of the random numbers.");
+  using Rule = StartTemperature::Rule;
+  constexpr double kHottest = 1e15;
+  options.number(
+      "start_temperature", 0.0, kHottest, "Where the temperature starts; 0: automatic.",
+      [&run] { return Value(run.start.rule == Rule::given ? run.start.value : 0.0); },
+      [&run](const Value& given) {
+        const double value = std::get<double>(given);
+        if (value > 0.0) run.start = {Rule::given, value};
+      });
+  options
+      .number(
+          "initial_acceptance", 0.0, 1.0,
+          "In place of a start temperature: the share of worsening swaps that is accepted at the start, at "
+          "least "
+          "0.001; 1 accepts everything; 0: automatic.",
+          [&run] {
+            return Value(run.start.rule == Rule::everything   ? 1.0
+                         : run.start.rule == Rule::acceptance ? run.start.value
+                                                              : 0.0);
+          },
+          [&run](const Value& given) {
+            const double value = std::get<double>(given);
+            if (value > 0.0) run.start = {value == 1.0 ? Rule::everything : Rule::acceptance, value};
+          })
+      .without("start_temperature");
+  options.real("end_temperature", run.end_temperature, 0.0, kHottest,
+               "Where the temperature ends; 0: automatic.");
+  options.integer("chains", run.chains.count, 1, 256, "Chains to run; with tempering at least 2.");
+  options.choice<ChainOptions::Coupling>(
+      "coupling", run.chains.coupling,
+      {{"independent", ChainOptions::Coupling::independent},
+       {"tempering", ChainOptions::Coupling::tempering}},
+      "Of several chains: keep the best of them, or temper between start and end temperature.");
+  options
+      .integer(
+          "swap_distance", run.swap_distance_px, 0, 64,
+          "Farthest apart, per axis, of two swapped seeds, at most twice the radius; 0: 5/3 of the radius.")
+      .in("pixels");
+  options
+      .integer("stop_after", run.stop_after, 0, std::int64_t{1} << 62,
+               "Above 0: end after so many proposals, cooled as for all of them; makes a stopped run again.")
+      .from_edition(2);
+  for (std::size_t i = first; i < options.list().size(); ++i)
+    options.list()[i].only_if([&entry] { return entry.anneals; }, "method = \"anneal\"");
+}
+
+}  // namespace
+
+Options RetargetEntry::options() {
+  Options options;
+  const auto reads_image = [this] { return !image.empty(); };
+  options.text("image", image, "The source: an image file, relative to the recipe.").naming_file();
+  options.integer("channel", channel, 0, 63, "The channel of the image, 0 for red.")
+      .only_if([this] { return !image.empty() && !(anneals && !anneal.channels.empty()); },
+               "image = \"path\", and without channels");
+  options.text("mask", mask, "The source: the name of a [[mask]].").naming_entry("mask").only_in_recipes();
+  options
+      .choice<SampleType>(
+          "levels", levels, kSampleTypes,
+          "The samples of the mask that the renderer reads; the mask must have an output of them.")
+      .only_in_recipes()
+      .only_if([this] { return image.empty(); }, "mask = \"name\"");
+  options
+      .offset("step", step, -kMaxStep, kMaxStep, "auto",
+              "How far the mask moves from frame to frame; auto picks a step with a long orbit.")
+      .in("pixels");
+  options.integer("radius", problem.radius, 1, 32, "The farthest that a seed may move.").in("pixels");
+  options.choice<Reach>("reach", problem.reach,
+                        {{"chebyshev", Reach::chebyshev}, {"euclidean", Reach::euclidean}},
+                        "How that distance is measured: in a square or in a disc.");
+  options.choice<Metric>("metric", problem.metric, {{"l1", Metric::l1}, {"l2", Metric::l2}},
+                         "Cost of a difference of levels: its size or its square.");
+  options.boolean("wrap", problem.wrap,
+                  "Whether seeds may cross the tile's border; false for a tile used alone.");
+  options
+      .integer("motion", motion, 0, 8,
+               "Range of motions in x and y: 0 makes one tile, 4 the 81 of a 9x9 atlas.")
+      .in("pixels");
+  options
+      .choice<bool>("method", anneals, {{"exact", false}, {"anneal", true}},
+                    "The proven optimum, or simulated annealing.")
+      .from_edition(2);
+  declare_annealing(options, *this);
+  Option& gap =
+      options.real("gap", problem.gap, 0.0, 1.0,
+                   "Stop when the energy is proven to be within this share of the optimum; 0: prove it.");
+  gap.percent = true;
+  gap.only_if([this] { return !anneals; }, "method = \"exact\"");
+  // Annealing's channels are the image's.
+  Option* channels = options.find("channels");
+  channels->only_if([this, reads_image] { return anneals && reads_image(); },
+                    "method = \"anneal\" and image = \"path\"");
+  return options;
+}
+
+void RetargetEntry::check(const Complain& complain) const {
+  if (mask.empty() == image.empty()) {
+    complain(image.empty() ? "mask" : "image", image.empty() ? "is missing" : "stands beside a mask",
+             "either mask = \"name\" or image = \"path\"", "");
+  }
+  if (!anneals) return;
+  const AnnealOptions& run = anneal.options;
+  if (run.start.rule == StartTemperature::Rule::given && run.end_temperature > run.start.value) {
+    complain("end_temperature", fmt::format("is {}, above the start", run.end_temperature),
+             fmt::format("at most {}", run.start.value), "");
+  }
+  if (run.swap_distance_px > 2 * problem.radius) {
+    complain("swap_distance", fmt::format("is {}", run.swap_distance_px),
+             fmt::format("0..{}, twice the radius", 2 * problem.radius), "");
+  }
+  const std::size_t count = std::max<std::size_t>(1, anneal.channels.size());
+  if (!anneal.weights.empty() && anneal.weights.size() != count) {
+    complain("weights", fmt::format("has {} elements", anneal.weights.size()),
+             fmt::format("{}, one for each channel", count), "");
+  }
+  // 0 is no filter; what is above has a range of its own.
+  if (anneal.residual_sigma_px > 0.0 && anneal.residual_sigma_px < 0.3) {
+    complain("residual_sigma", fmt::format("is {}", anneal.residual_sigma_px), "0, or 0.3..8 pixels", "");
+  }
+  if (anneal.residual_sigma_px > 0.0 && problem.metric != Metric::l2) {
+    complain("residual_sigma", "needs the squares of differences", "only with metric = \"l2\"", "");
+  }
+  // The library says what else is wrong, in the words of recipes.
+  try {
+    check_anneal_options(run);
+  } catch (const Error& error) {
+    const ErrorInfo& info = error.info();
+    complain(info.where, "is refused: " + info.what, info.limit, info.remedy);
+  }
+}
+
+void RetargetEntry::default_output(std::size_t output) {
+  outputs.at(output).kind = motion > 0 ? RetargetOutput::Kind::atlas : RetargetOutput::Kind::tile;
+}
+
+Options RetargetEntry::output_options(std::size_t output) {
+  RetargetOutput& file = outputs.at(output);
+  Options options;
+  options
+      .choice<RetargetOutput::Kind>(
+          "kind", file.kind, {{"tile", RetargetOutput::Kind::tile}, {"atlas", RetargetOutput::Kind::atlas}},
+          "One tile, or the tiles of all motions in one image.")
+      .if_unset("\"atlas\" if `motion` > 0, else \"tile\"")
+      .only_in_recipes();
+  options.choice<MoveForm>("form", file.form, {{"scatter", MoveForm::scatter}, {"gather", MoveForm::gather}},
+                           "What a pixel says: where its seed goes, or where its seed comes from.");
+  options.offset("motion", file.motion, -motion, motion, "Of a tile: its motion.")
+      .only_in_recipes()
+      .only_if([&file] { return file.kind == RetargetOutput::Kind::tile; }, "kind = \"tile\"");
+  return options;
+}
+
+// --- making it -------------------------------------------------------------------------------------
+
+std::size_t RetargetEntry::input_output(const Entry& source) const {
+  for (std::size_t i = 0; i < source.output_count(); ++i) {
+    if (source.output_type(i) == levels) return i;
+  }
+  throw Error(
+      {.code = ErrorCode::invalid_input,
+       .what = fmt::format("{} '{}' has no {} output for the tiles to refer to", source.kind().table,
+                           source.name, name_of(levels)),
+       .where = name,
+       .limit = "",
+       .remedy = fmt::format("add {{ path = \"...\", type = \"{}\" }} to its outputs", name_of(levels))});
+}
+
+void RetargetEntry::check_inputs(const std::vector<Extent>& sizes, const Complain& complain) const {
+  for (const Extent size : sizes) {
+    const int most = std::min(8, largest_motion(size));
+    if (motion <= most) continue;
+    complain("motion", fmt::format("{} is larger than the tile of {}x{}", motion, size.width, size.height),
+             fmt::format("0..{}", most), "");
+  }
+}
+
+Cost RetargetEntry::cost(const std::vector<Extent>& input_sizes, const Execution& execution) const {
+  // Measured on one core of a Zen 5 machine; the seconds only pace the progress bar.
+  constexpr double kSecondsPerPixel = 1.5e-6;  // up to 128 x 128, then growing with the side
+  constexpr double kSecondsPerProposal = 6e-10, kSecondsPerFilteredProposal = 1e-7;
+  constexpr std::uint64_t kSolverBytesPerPixel = 64;       // of a tile in work
+  constexpr std::uint64_t kTileBytesPerPixel = 8 + 3 + 3;  // of a finished tile: moves, image, atlas
+  const Extent size = input_sizes.empty() ? Extent{} : input_sizes.front();
+  const int tiles = (2 * motion + 1) * (2 * motion + 1);
+  const auto pixels = static_cast<double>(size.area());
+  Cost cost{.seconds = tiles * pixels * kSecondsPerPixel * std::max(1.0, std::sqrt(pixels) / 128.0)};
+  if (anneals) {
+    cost.seconds += tiles * static_cast<double>(anneal.options.proposals) * anneal.options.chains.count *
+                    (anneal.residual_sigma_px > 0.0 ? kSecondsPerFilteredProposal : kSecondsPerProposal);
+  }
+  const auto at_once = static_cast<std::uint64_t>(std::min(thread_count(execution), tiles));
+  cost.memory_bytes =
+      static_cast<std::uint64_t>(size.area()) *
+      (at_once * kSolverBytesPerPixel + static_cast<std::uint64_t>(tiles) * kTileBytesPerPixel);
+  return cost;
+}
+
+Metadata RetargetEntry::metadata(std::size_t output, const std::vector<Input>& inputs,
+                                 const std::filesystem::path& folder) const {
+  const RetargetOutput& file = outputs.at(output);
+  const Input& source = inputs.at(0);
+  Metadata metadata;
+  metadata.algorithm = anneals ? "retarget-anneal" : "retarget-exact";
+  metadata.algorithm_version = anneals ? kAnnealVersion : kExactRetargetVersion;
+  metadata.kind = file.kind == RetargetOutput::Kind::tile ? "retarget-tile" : "retarget-atlas";
+  Facts& facts = metadata.facts;
+  if (anneals) facts.add("seed", anneal.options.seed);
+  facts.add("step", step ? *step : auto_step(source.image.size).step);
+  facts.add("radius", problem.radius);
+  facts.add("reach", name_of(problem.reach));
+  facts.add("metric", name_of(problem.metric));
+  facts.add("wrap", Value(problem.wrap));
+  facts.add("form", name_of(file.form));
+  const auto from = std::filesystem::absolute(folder).lexically_normal();
+  facts.add(
+      "source",
+      std::filesystem::absolute(source.path).lexically_normal().lexically_relative(from).generic_string());
+  facts.add("source_channel", channels_of(*this).front());
+  facts.add("source_hash", source.hash);
+  return metadata;
+}
+
+namespace {
+
+TileRecord record_of(const RetargetTile& tile, Offset motion) {
+  return {.motion = motion,
+          .start_energy = tile.start_energy,
+          .energy = tile.energy,
+          .lower_bound = tile.lower_bound};
+}
+
+/// An annealed tile's energy was kept by adding changes; here it is computed afresh.
+void require_energy(const RetargetEntry& entry, const Source& source, const RetargetTile& tile,
+                    const RetargetOptions& options, Made& made) {
+  const std::int64_t recomputed = energy_of(entry, source, tile.move, options);
+  if (recomputed != tile.energy) {
+    throw Error({.code = ErrorCode::verification_failed,
+                 .what = fmt::format("annealing says energy {}, its tile has {}", tile.energy, recomputed),
+                 .where = fmt::format("{}, motion ({}, {})", entry.name, options.motion.x, options.motion.y),
+                 .limit = "equal",
+                 .remedy = "report it, with the image and the options"});
+  }
+  if (options.motion == Offset{0, 0}) made.facts.add("recomputed_energy", recomputed);
+}
+
+}  // namespace
+
+Made RetargetEntry::make(const std::vector<Input>& inputs, const Execution& execution) const {
+  const Source source = source_of(inputs.at(0), channels_of(*this));
+  check_inputs({source.size()},
+               [&](std::string_view key, std::string what, std::string limit, std::string remedy) {
+                 throw Error({.code = ErrorCode::invalid_input,
+                              .what = std::move(what),
+                              .where = std::string(key),
+                              .limit = std::move(limit),
+                              .remedy = std::move(remedy)});
+               });
+  RetargetOptions options = problem;
+  options.step = step_of(*this, source);
+  Made made;
+  made.facts.add("step", options.step);
+  made.facts.add("orbit_length", orbit_length(source.size(), options.step));
+  if (anneals) made.facts.add("proposals", anneal.options.proposals);
+  made.notes = source_notes(source, options);
+  std::vector<RetargetTile> tiles = anneals ? anneal_tiles(*this, source, execution)
+                                            : solve_motion_set(source.first(), options, motion, execution);
+  for (std::size_t i = 0; i < tiles.size(); ++i) {
+    const int side = 2 * motion + 1, at = static_cast<int>(i);
+    options.motion = {at % side - motion, at / side - motion};
+    made.tiles.push_back(record_of(tiles[i], options.motion));
+    if (anneals) require_energy(*this, source, tiles[i], options, made);
+  }
+  made.picture = [this, tiles = std::move(tiles), records = made.tiles](std::size_t output) {
+    const RetargetOutput& file = outputs.at(output);
+    const auto encode = [&](const RetargetTile& tile) {
+      return encode_moves(file.form == MoveForm::scatter ? tile.move : invert_moves(tile.move));
+    };
+    if (file.kind == RetargetOutput::Kind::tile) {
+      const std::size_t index = motion_index(file.motion, motion);
+      return Picture{.image = encode(tiles.at(index)), .tiles = {records.at(index)}};
+    }
+    std::vector<Image> all;
+    for (const RetargetTile& tile : tiles) all.push_back(encode(tile));
+    return Picture{.image = make_atlas(all, 2 * motion + 1), .tiles = records};
+  };
+  return made;
+}
+
+void RetargetEntry::check_input_contents(const std::vector<Input>& inputs) const {
+  source_of(inputs.at(0), channels_of(*this));
+}
+
+bool RetargetEntry::settle(const std::vector<Input>& inputs, const Execution& execution) {
+  if (!anneals || anneal.seconds <= 0.0) return false;
+  *this = with_budget_found(*this, source_of(inputs.at(0), channels_of(*this)), execution);
+  return true;
+}
+
+Made RetargetEntry::made_elsewhere(const std::vector<Input>& inputs, const RetargetTile& tile) const {
+  const RetargetOutput& output = outputs.at(0);
+  const Source source = source_of(inputs.at(0), channels_of(*this));
+  RetargetOptions options = problem;
+  options.step = step_of(*this, source);
+  options.motion = output.motion;
+  const auto require = [](bool holds, const char* what) {
+    if (holds) return;
+    throw Error({.code = ErrorCode::verification_failed,
+                 .what = what,
+                 .where = "tile",
+                 .limit = "the figures of its moves on this source",
+                 .remedy = "make it for this source and these options"});
+  };
+  require(tile.move.size() == source.size(), "its size is not its source's");
+  check_permutation(tile.move, options);
+  require(energy_of(*this, source, tile.move, options) == tile.energy, "its energy is not that of its moves");
+  const Grid<Offset> identity(source.size(), options.motion);
+  require(energy_of(*this, source, identity, options) == tile.start_energy,
+          "its start energy is not the identity's");
+  require(tile.lower_bound <= tile.energy, "its lower bound is above its energy");
+  Made made;
+  made.facts.add("step", options.step);
+  made.facts.add("orbit_length", orbit_length(source.size(), options.step));
+  made.tiles = {record_of(tile, options.motion)};
+  made.notes = source_notes(source, options);
+  const Image moves = encode_moves(output.form == MoveForm::scatter ? tile.move : invert_moves(tile.move));
+  made.picture = [moves, tiles = made.tiles](std::size_t) { return Picture{.image = moves, .tiles = tiles}; };
+  return made;
+}
+
+}  // namespace bn

@@ -1,0 +1,29 @@
+// Paths as recipes name them: what a path may not be, what its extension says, and numbers in it.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "bn/texture.h"
+
+namespace bn::baking {
+
+/// ".png", in lower case.
+std::string lower_case_extension(const std::string& path);
+
+/// The sample type that a file has where nobody names one: float for .exr, else 8bit.
+SampleType natural_type(const std::string& path);
+
+/// What is wrong with an output path, as in "is absolute"; empty if nothing is. Files stay inside the output
+/// folder.
+std::string path_problem(const std::string& path);
+
+/// `pattern` with its one place for a number, %d, %3d or %03d, filled in; %% is a percent sign.
+/// Errors: invalid_input (no such place, or more than one; another letter after %).
+std::string numbered_path(const std::string& pattern, int number);
+
+/// Whether both name one existing file, by whatever path or link.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+}  // namespace bn::baking
