@@ -24,11 +24,11 @@ class EventPrinter {
   void operator()(const JobStarted& started) {
     const std::string number =
         started.count > 1 ? fmt::format("{}/{} ", started.index + 1, started.count) : "";
-    display_.rename(fmt::format("{}{} {}", number, name_of(started.job.kind), started.job.name));
+    display_.rename(fmt::format("{}{} {}", number, started.job.kind, started.job.name));
     display_.event({{"event", "job_started"},
                     {"index", started.index},
                     {"count", started.count},
-                    {"kind", name_of(started.job.kind)},
+                    {"kind", started.job.kind},
                     {"name", started.job.name}});
   }
   void operator()(const BakeProgress& progress) { display_.update(progress.done, progress.seconds_left); }
@@ -64,8 +64,8 @@ void print_plan(const BakePlan& plan, const Settings& settings, Output& output) 
   }
   std::string text;
   for (const auto& job : plan.jobs) {
-    text += fmt::format("{:7} {:13} {:20} {:>8.2f} s  {}\n", job.stands ? "stands" : "to make",
-                        name_of(job.kind), job.name, job.estimated_seconds, files_text(job.files));
+    text += fmt::format("{:10} {:13} {:20} {:>8.2f} s  {}\n", job.up_to_date ? "up to date" : "to bake",
+                        job.kind, job.name, job.estimated_seconds, files_text(job.files));
   }
   output.write(text + fmt::format("about {} on one core, {:.0f} MiB of memory; nothing was written\n",
                                   readable_duration(plan.estimated_seconds),
@@ -88,7 +88,7 @@ void print_result(const BakeResult& result, const Settings& settings, Session& s
     for (const auto& file : job.files) paths.push_back(file.path);
     const std::string energy = energy_text(job.tiles);
     text +=
-        fmt::format("{:7} {:13} {:20} {:>8.2f} s  {}{}\n", job.skipped ? "stands" : "made", name_of(job.kind),
+        fmt::format("{:10} {:13} {:20} {:>8.2f} s  {}{}\n", job.skipped ? "up to date" : "baked", job.kind,
                     job.name, job.seconds, files_text(paths), energy.empty() ? "" : "  energy " + energy);
     for (const auto& note : job.notes) session.progress.note(fmt::format("{}: {}", job.name, note));
   }
@@ -127,9 +127,10 @@ Verb bake_verb() {
       {"bn bake recipe.toml --dry-run", "what would be made, how long and with how much memory"},
       {"bn bake recipe.toml --out out --progress json 2> events.jsonl", "progress for a program"}};
   verb.details =
-      "Checks the whole recipe first: a mistake costs no time. Results that already stand in the folder, "
-      "with the same "
-      "recipe and intact pixels, are kept. Ctrl-C stops cleanly; the same command goes on where it stopped "
+      "Checks the whole recipe first: a mistake costs no time. Results in the folder that are up to date, "
+      "made by the "
+      "same entry and with intact pixels, are kept. Ctrl-C stops cleanly; the same command goes on where it "
+      "stopped "
       "and ends with the same bytes. manifest.json lists every file with its hash, energy and bound.";
   verb.arguments.positional("RECIPE", settings->recipe, file_path(),
                             "The recipe, a TOML file; docs/recipes.md lists its keys.");
@@ -137,7 +138,8 @@ Verb bake_verb() {
                         "The folder to bake into; made if missing.", "-o");
   verb.arguments.flag("--dry-run", settings->dry_run, true,
                       "Check everything and say what would be made; write nothing.");
-  verb.arguments.flag("--force", settings->options.force, true, "Make everything again, also what stands.");
+  verb.arguments.flag("--force", settings->options.force, true,
+                      "Make everything again, also what is up to date.");
   verb.arguments.flag("--json", settings->json, true, "Print the result (or the plan) as JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;

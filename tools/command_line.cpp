@@ -13,6 +13,7 @@
 #include <deque>
 
 #include "bn/error.h"
+#include "bn/options.h"
 
 namespace bn::tools {
 namespace {

@@ -16,7 +16,7 @@ enum class Shell { bash };
 std::string names_of(const Arguments& arguments) {
   std::string names;
   for (const auto& argument : arguments.list()) {
-    if (!argument.is_positional()) names += argument.name + " ";
+    if (!argument.is_positional() && !argument.hidden) names += argument.name + " ";
   }
   return names;
 }
@@ -39,7 +39,7 @@ std::string generator(const Argument& argument) {
 std::string value_cases(const std::string& verb, const Arguments& arguments) {
   std::string text;
   for (const auto& argument : arguments.list()) {
-    if (argument.is_positional() || argument.is_switch()) continue;
+    if (argument.is_positional() || argument.is_switch() || argument.hidden) continue;
     std::string patterns = fmt::format("'{} {}'", verb, argument.name);
     if (!argument.short_name.empty()) patterns += fmt::format("|'{} {}'", verb, argument.short_name);
     text += fmt::format("    {}) generate=({}) ;;\n", patterns, generator(argument));

@@ -7,9 +7,9 @@
 namespace bn::tools {
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kColumns = 80;
 /// Where the explanation of an option begins.
-constexpr std::size_t kExplanation = 30;
+constexpr std::size_t kExplanation = 26;
 
 constexpr std::string_view kExitCodes =
     "Exit codes\n"
@@ -58,10 +58,12 @@ std::string examples_text(const std::vector<Example>& examples) {
   return text + "\n";
 }
 
-std::string arguments_text(std::string_view title, const Arguments& arguments, bool positional) {
+/// The positional arguments, or the flags of one group.
+std::string arguments_text(std::string_view title, const Arguments& arguments, bool positional,
+                           std::string_view group = "") {
   std::string text;
   for (const auto& argument : arguments.list()) {
-    if (argument.is_positional() != positional) continue;
+    if (argument.is_positional() != positional || argument.group != group || argument.hidden) continue;
     std::string left = argument.short_name.empty() ? "" : argument.short_name + ", ";
     left += argument.name;
     if (argument.repeats) left += "...";
@@ -90,6 +92,12 @@ std::string own_help(const Verb& verb) {
   std::string text =
       examples_text(verb.examples) + wrapped(verb.details, 0) + "\n\nUsage: " + usage_line(verb) + "\n\n" +
       arguments_text("Arguments", verb.arguments, true) + arguments_text("Options", verb.arguments, false);
+  std::vector<std::string> groups;
+  for (const auto& argument : verb.arguments.list()) {
+    const bool is_new = std::find(groups.begin(), groups.end(), argument.group) == groups.end();
+    if (!argument.group.empty() && !argument.hidden && is_new) groups.push_back(argument.group);
+  }
+  for (const auto& group : groups) text += arguments_text(group, verb.arguments, false, group);
   text.pop_back();
   return text;
 }

@@ -77,6 +77,12 @@ Error error_in_flight() {
                   .where = "",
                   .limit = "",
                   .remedy = "please report it with the command that shows it"});
+  } catch (...) {
+    return Error({.code = kDefect,
+                  .what = "a defect in bn: an exception of no known type",
+                  .where = "",
+                  .limit = "",
+                  .remedy = "please report it with the command that shows it"});
   }
 }
 

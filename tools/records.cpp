@@ -11,6 +11,18 @@ Json to_json(Offset offset) { return Json::array({offset.x, offset.y}); }
 
 Json to_json(Extent size) { return Json::array({size.width, size.height}); }
 
+Json to_json(const Facts& facts) {
+  Json json = Json::object();
+  for (const auto& [key, value] : facts) {
+    std::visit(
+        [&, &name = key](const auto& held) {
+          if constexpr (!std::is_same_v<std::decay_t<decltype(held)>, std::monostate>) json[name] = held;
+        },
+        value);
+  }
+  return json;
+}
+
 Json to_json(const TileRecord& tile) {
   return {{"motion", to_json(tile.motion)},
           {"start_energy", tile.start_energy},
@@ -35,12 +47,11 @@ Json list_of(const std::vector<T>& items) {
 }  // namespace
 
 Json to_json(const JobRecord& job) {
-  Json json{{"kind", name_of(job.kind)},
+  Json json{{"kind", job.kind},
             {"name", job.name},
             {"skipped", job.skipped},
             {"seconds", rounded_seconds(job.seconds)}};
-  if (job.step) json["step"] = to_json(*job.step);
-  if (job.orbit_length) json["orbit_length"] = *job.orbit_length;
+  json.update(to_json(job.facts));
   json["files"] = list_of(job.files);
   if (!job.tiles.empty()) json["tiles"] = list_of(job.tiles);
   if (!job.notes.empty()) json["notes"] = job.notes;
@@ -48,9 +59,9 @@ Json to_json(const JobRecord& job) {
 }
 
 Json to_json(const PlannedJob& job) {
-  return {{"kind", name_of(job.kind)},
+  return {{"kind", job.kind},
           {"name", job.name},
-          {"stands", job.stands},
+          {"up_to_date", job.up_to_date},
           {"estimated_seconds", rounded_seconds(job.estimated_seconds)},
           {"memory_bytes", job.memory_bytes},
           {"files", job.files}};

@@ -12,6 +12,8 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(Offset offset);  ///< [x, y]
 Json to_json(Extent size);    ///< [width, height]
+/// {key: value, ...}, in their order
+Json to_json(const Facts& facts);
 /// {motion, start_energy, energy, lower_bound, optimal}
 Json to_json(const TileRecord& tile);
 Json to_json(const FileRecord& file);

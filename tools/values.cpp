@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "bn/error.h"
+#include "bn/options.h"
 
 namespace bn::tools {
 namespace {
@@ -59,25 +60,6 @@ ValueKind<std::filesystem::path> path(std::string placeholder, Completion comple
               },
           .show = [](const std::filesystem::path& value) { return value.string(); },
           .completion = completion};
-}
-
-/// Edits (insert, remove, replace, swap of neighbours) that make `a` into `b`.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) {
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-      if (i == 0 || j == 0) {
-        edits[i][j] = i + j;
-        continue;
-      }
-      const std::size_t replace = edits[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      edits[i][j] = std::min({edits[i - 1][j] + 1, edits[i][j - 1] + 1, replace});
-      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
-        edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
-      }
-    }
-  }
-  return edits[a.size()][b.size()];
 }
 
 }  // namespace
@@ -234,20 +216,6 @@ ValueKind<std::uint64_t> memory_size() {
 
 ValueKind<std::filesystem::path> file_path() { return path("FILE", Completion::file); }
 ValueKind<std::filesystem::path> folder_path() { return path("DIR", Completion::folder); }
-
-std::string nearest_word(std::string_view text, const std::vector<std::string>& words) {
-  std::string nearest;
-  // A third of the letters may be wrong; beyond that a suggestion is a guess.
-  std::size_t fewest = std::max<std::size_t>(1, text.size() / 3) + 1;
-  for (const auto& word : words) {
-    const std::size_t edits = edit_distance(text, word);
-    if (edits < fewest) {
-      fewest = edits;
-      nearest = word;
-    }
-  }
-  return nearest;
-}
 
 void fail_choice(std::string_view text, std::string_view where, const std::vector<std::string>& words) {
   const std::string nearest = nearest_word(text, words);

@@ -78,7 +78,4 @@ ValueKind<T> choice_of(std::vector<std::pair<std::string, T>> table) {
   return kind;
 }
 
-/// The word of `words` a mistyped `text` was probably meant to be; empty if none is near.
-std::string nearest_word(std::string_view text, const std::vector<std::string>& words);
-
 }  // namespace bn::tools

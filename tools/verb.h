@@ -26,6 +26,8 @@ struct Argument {
   bool repeats = false;  ///< a positional one that takes all the words that are left
   Completion completion = Completion::none;
   std::vector<std::string> choices = {};
+  std::string group = {};  ///< the heading that the help puts it under; empty: "Options"
+  bool hidden = false;     ///< an older name, which works and is not shown
   std::function<void(std::string_view text)> assign = {};
 
   bool is_positional() const { return name.front() != '-'; }
@@ -81,6 +83,20 @@ class Arguments {
                      .initial = "",
                      .assign = [&target, value](std::string_view) { target = value; }});
   }
+
+  void add(Argument argument) { list_.push_back(std::move(argument)); }
+  /// A name that an option had before: it works and is not shown. A switch where `placeholder` is empty.
+  void older_name(std::string name, std::string placeholder,
+                  std::function<void(std::string_view text)> assign_text) {
+    Argument argument;
+    argument.name = std::move(name);
+    argument.placeholder = std::move(placeholder);
+    argument.hidden = true;
+    argument.assign = std::move(assign_text);
+    add(std::move(argument));
+  }
+  /// Puts the argument that was added last under a heading of its own in the help.
+  void in_group(std::string heading) { list_.back().group = std::move(heading); }
 
   const std::vector<Argument>& list() const { return list_; }
 

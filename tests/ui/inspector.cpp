@@ -52,9 +52,11 @@ std::string Workplace::as_stranger() const {
 
 void Workplace::write_mask(const std::string& name, int side, std::uint64_t seed) const {
   std::filesystem::create_directories((folder_ / name).parent_path());
-  make_mask({.name = "mask",
-             .options = {.size = {side, side}, .seed = seed},
-             .outputs = {{.path = (folder_ / name).string()}}});
+  MaskEntry mask;
+  mask.name = "mask";
+  mask.void_and_cluster = {.size = {side, side}, .seed = seed};
+  mask.outputs = {{.path = (folder_ / name).string()}};
+  make_entry(mask);
 }
 
 double contrast(const Image& image, Part part) {
