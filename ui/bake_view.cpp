@@ -170,9 +170,9 @@ void BakeView::draw_controls(App& app) {
   if (!planned_) return;
   const BakePlan& plan = planned_->plan;
   const auto stand =
-      std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& job) { return job.stands; });
+      std::count_if(plan.jobs.begin(), plan.jobs.end(), [](const auto& job) { return job.up_to_date; });
   heading("Plan");
-  value("Jobs", stand > 0 ? fmt::format("{}, of which {} stand", plan.jobs.size(), stand)
+  value("Jobs", stand > 0 ? fmt::format("{}, of which {} are up to date", plan.jobs.size(), stand)
                           : fmt::format("{}", plan.jobs.size()));
   const bool nothing = stand == static_cast<std::ptrdiff_t>(plan.jobs.size());
   value("Time", nothing ? "nothing to make" : "about " + seconds_text(plan.estimated_seconds),
@@ -207,21 +207,21 @@ void BakeView::draw_job(App& app, int index, bool narrow) {
     record = watch_->records[static_cast<std::size_t>(index)];
     running = watch_->running == index && baking_.running();
   }
-  const bool stands = record ? record->skipped : job.stands;
+  const bool stands = record ? record->skipped : job.up_to_date;
   const char* state = running                      ? "running"
-                      : record && !record->skipped ? "made"
-                      : stands                     ? "stands"
-                                                   : "to make";
+                      : record && !record->skipped ? "baked"
+                      : stands                     ? "up to date"
+                                                   : "to bake";
   const ImU32 colour = running ? palette().accent : record || stands ? palette().good : palette().dim_text;
   ImGui::PushID(index);
   ImGui::TableNextColumn();
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::TextUnformatted(state);
   ImGui::PopStyleColor();
-  items::record(fmt::format("{} {}", name_of(job.kind), job.name), state);
+  items::record(fmt::format("{} {}", job.kind, job.name), state);
   ImGui::TableNextColumn();
   ImGui::TextUnformatted(job.name.c_str());
-  note(name_of(job.kind));
+  note(job.kind);
   if (!narrow) ImGui::TableNextColumn();
   ImGui::TextUnformatted(record && !record->skipped ? seconds_text(record->seconds).c_str()
                                                     : ("~ " + seconds_text(job.estimated_seconds)).c_str());

@@ -145,10 +145,10 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
   entry.name = tile.stem().string();
   entry.channel = bakes_mask ? 0 : channel;
   if (!auto_step) entry.step = Offset{step_x, step_y};
-  entry.options.radius = radius;
-  entry.options.reach = static_cast<Reach>(reach);
-  entry.options.metric = metric == 0 ? Metric::l1 : Metric::l2;
-  entry.options.wrap = wraps;
+  entry.problem.radius = radius;
+  entry.problem.reach = static_cast<Reach>(reach);
+  entry.problem.metric = metric == 0 ? Metric::l1 : Metric::l2;
+  entry.problem.wrap = wraps;
   entry.motion = range;
   entry.outputs = {{.path = tile.string(), .motion = {motion_x, motion_y}}};
   AnnealMethod method;
@@ -156,6 +156,7 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
   if (metric == 2) method.residual_sigma_px = residual_sigma_px;
   if (!result.frozen && result.proposals < method.options.proposals)
     method.options.stop_after = result.proposals;
+  entry.anneals = true;
   entry.anneal = method;
   return entry;
 }

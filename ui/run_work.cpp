@@ -138,21 +138,23 @@ void RunView::save(App& app, const std::filesystem::path& file) {
     RetargetEntry entry = entry_->settings.entry(*result, file);
     RetargetTile tile = result->tile;
     const RetargetTile* optimum = entry_->optimum ? entry_->optimum->tile() : nullptr;
-    const bool residual = entry.anneal->residual_sigma_px > 0.0;
+    const bool residual = entry.anneal.residual_sigma_px > 0.0;
     // Nothing but 0 is proven of a residual; what is not proven yet is -1.
     tile.lower_bound = residual ? 0 : optimum != nullptr ? optimum->lower_bound : -1;
     saving_.start([entry, tile, source = entry_->source, file](const Execution& execution) mutable {
       if (source->choice.baked) {
         // A tile names its source; a mask that was baked on the spot becomes a file beside it.
-        MaskEntry mask{.name = file.stem().string() + "-mask", .options = source->choice.mask};
+        MaskEntry mask;
+        mask.name = file.stem().string() + "-mask";
+        mask.void_and_cluster = source->choice.mask;
         mask.outputs = {{.path = (file.parent_path() / (mask.name + ".png")).string()}};
-        make_mask(mask, execution);
+        make_entry(mask, execution);
         entry.image = mask.outputs[0].path;
       } else {
         entry.image = source->choice.file.string();
       }
       if (tile.lower_bound < 0) {
-        RetargetOptions bound = entry.options;
+        RetargetOptions bound = entry.problem;
         bound.step = entry.step ? *entry.step : auto_step(source->levels.value.size()).step;
         bound.motion = entry.outputs[0].motion;
         bound.gap = 0.01;
@@ -160,9 +162,9 @@ void RunView::save(App& app, const std::filesystem::path& file) {
       }
       write_retarget(entry, tile, execution);
       std::string detail = fmt::format("energy {}, at least {}", tile.energy, tile.lower_bound);
-      if (const std::int64_t made = entry.anneal->options.stop_after; made > 0) {
+      if (const std::int64_t made = entry.anneal.options.stop_after; made > 0) {
         detail += fmt::format("; stopped after {} of {} proposals", short_number(static_cast<double>(made)),
-                              short_number(static_cast<double>(entry.anneal->options.proposals)));
+                              short_number(static_cast<double>(entry.anneal.options.proposals)));
       }
       return Saved{file, detail};
     });

@@ -67,8 +67,8 @@ std::optional<AnnealOptions> annealing_of(const Metadata& metadata) {
   if (metadata.algorithm != "retarget-anneal") return {};
   try {
     const Recipe recipe = parse_recipe(metadata.recipe, "recipe", {});
-    if (recipe.retargets.size() == 1 && recipe.retargets[0].anneal)
-      return recipe.retargets[0].anneal->options;
+    const auto set = std::dynamic_pointer_cast<const RetargetEntry>(recipe.entries.back());
+    if (set && set->anneals) return set->anneal.options;
   } catch (const Error&) {
     // What is wrong with it, the verdict says.
   }
@@ -166,8 +166,9 @@ Image slice(const TextureFile& texture, const AtlasCut& cut, int index) {
 }
 
 bool holds_moves(const TextureFile& texture) {
-  return texture.metadata && texture.metadata->kind.starts_with("retarget-") && texture.metadata->radius &&
-         texture.images[0].type == SampleType::u8 && texture.images[0].channels >= 2;
+  return texture.metadata && texture.metadata->kind.starts_with("retarget-") &&
+         texture.metadata->facts.get<int>("radius") && texture.images[0].type == SampleType::u8 &&
+         texture.images[0].channels >= 2;
 }
 
 Picture picture_of(const TextureFile& texture, const Section& section) {
