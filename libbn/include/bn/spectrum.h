@@ -13,11 +13,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bn/execution.h"
@@ -60,7 +62,7 @@ std::vector<T> inverse_transform(HalfSpectrum<T> spectrum, const Execution& exec
 /// (Parseval). A constant texture has P = 0 everywhere.
 struct PowerSpectrum {
   Shape shape;
-  std::vector<double> half;  ///< index (kz * H + ky) * half_width(shape) + kx
+  std::vector<double> half;   ///< index (kz * H + ky) * half_width(shape) + kx
   std::int64_t textures = 1;  ///< how many independent periodograms were averaged
   /// The power at any integer frequency index, negative ones included.
   double at(std::int64_t kx, std::int64_t ky = 0, std::int64_t kz = 0) const;
@@ -100,7 +102,8 @@ std::vector<double> midranks(std::span<const double> values, const Execution& ex
 
 /// The binary picture of `values` at grey level 0 < level < 1: 1 where (midrank + 1/2) / N < level,
 /// else 0.
-std::vector<double> thresholded(std::span<const double> values, double level, const Execution& execution = {});
+std::vector<double> thresholded(std::span<const double> values, double level,
+                                const Execution& execution = {});
 
 /// Counts of `values` in `bins` equal parts of low..high; values outside go to the first or last one.
 std::vector<std::int64_t> histogram(std::span<const double> values, double low, double high, int bins);
@@ -115,10 +118,10 @@ double histogram_max_deviation(std::span<const std::int64_t> counts);
 /// 1988). Annulus j holds the frequencies with round(f / step) = j, step = 1/max(W, H), so each
 /// frequency but DC is in exactly one; the last reaches the corner, f = 1/sqrt(2).
 struct RadialCurve {
-  std::vector<double> frequency;     ///< j * step, cycles/pixel, from j = 1
-  std::vector<double> power;         ///< mean over the annulus; NaN where it holds no frequency
-  std::vector<double> anisotropy_db; ///< 10 log10(s^2 / mean^2); NaN where undefined (see below)
-  std::vector<std::int64_t> count;   ///< frequencies in the annulus, conjugates included
+  std::vector<double> frequency;      ///< j * step, cycles/pixel, from j = 1
+  std::vector<double> power;          ///< mean over the annulus; NaN where it holds no frequency
+  std::vector<double> anisotropy_db;  ///< 10 log10(s^2 / mean^2); NaN where undefined (see below)
+  std::vector<std::int64_t> count;    ///< frequencies in the annulus, conjugates included
 };
 
 /// s^2 is the sample variance over the independent half of the annulus: with n frequencies in n/2
@@ -131,8 +134,8 @@ RadialCurve radial_power(const PowerSpectrum& power);
 inline constexpr std::array<double, 5> kBandEdges{0.0625, 0.125, 0.1875, 0.25, 0.5};
 
 struct BandPower {
-  std::array<double, 5> mean{};          ///< NaN where a small texture has no frequency in the band
-  std::array<std::int64_t, 5> count{};   ///< frequencies in the band, conjugates included
+  std::array<double, 5> mean{};         ///< NaN where a small texture has no frequency in the band
+  std::array<std::int64_t, 5> count{};  ///< frequencies in the band, conjugates included
 };
 BandPower band_power(const PowerSpectrum& power);
 
@@ -145,6 +148,13 @@ inline constexpr std::array<double, 3> kResidualSigmas{1.0, 1.5, 2.0};
 /// Bins of the histogram that figures of merit are made from; fewer where a texture has fewer pixels.
 inline constexpr int kHistogramBins = 256;
 
+/// How a texture's values should be spread over their range low..high.
+enum class Distribution {
+  uniform,     ///< each value equally often, as in a mask of ranks
+  triangular,  ///< the sum of two uniform ones (TPDF dither): most often the middle, never the ends
+};
+std::string_view name_of(Distribution distribution);  ///< "uniform", "triangular"
+
 /// The figures by which textures are compared. For a volume all but the last are of its slices
 /// (Projection::xy). NaN: undefined for this texture. All are of the ranks of the pixels, but for
 /// the histogram, so that an encoding changes none of them.
@@ -152,44 +162,76 @@ struct FiguresOfMerit {
   Shape shape;
   std::int64_t textures = 1;
   BandPower bands;
-  double peak = 0.0;              ///< largest mean power of an annulus; see figures_of_merit()
-  double peak_frequency = 0.0;    ///< cycles/pixel
-  double anisotropy_db_mean = 0.0;  ///< over the annuli of at least 32 frequencies
-  double anisotropy_db_max = 0.0;   ///< over the same
+  double peak = 0.0;                          ///< largest mean power of an annulus; see figures_of_merit()
+  double peak_frequency = 0.0;                ///< cycles/pixel
+  double anisotropy_db_mean = 0.0;            ///< over the annuli of at least 32 frequencies
+  double anisotropy_db_max = 0.0;             ///< over the same
   std::array<double, 3> gauss_residual_db{};  ///< for kResidualSigmas
-  double histogram_max_deviation = 0.0;
-  /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame, which no order of the slices changes,
+  double histogram_max_deviation = 0.0;       ///< from a flat histogram
+  Distribution distribution = Distribution::uniform;  ///< what was asked for
+  /// Largest difference between the share of values below a value and what a distribution other than uniform
+  /// makes it (Kolmogorov and Smirnov), 0..1; NaN for uniform.
+  double distribution_distance = std::numeric_limits<double>::quiet_NaN();
+  /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame, which no order of the slices
+  /// changes,
   double temporal_power_at_0 = std::numeric_limits<double>::quiet_NaN();
   /// and at 0 < f <= 1/8 cycles/frame, which tells whether the order is a good one; NaN below 8 slices.
   double temporal_power_low = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli one frequency
-/// step wide; those beyond 1/2 cycle/pixel, which the square cuts to arcs, are joined until they hold as many
-/// frequencies as the last whole one, or noise there would win. Of one texture it is high by about sqrt(2 / n), n
-/// frequencies in the annulus (docs/spectrum.md).
+/// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli one
+/// frequency step wide; those beyond 1/2 cycle/pixel, which the square cuts to arcs, are joined until they
+/// hold as many frequencies as the last whole one, or noise there would win. Of one texture it is high by
+/// about sqrt(2 / n), n frequencies in the annulus (docs/spectrum.md).
 FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max_deviation);
 
 /// The power of the ranks of `values`, and its figures. `low`..`high` is the range that the
 /// histogram covers (256 bins, or N if less): 0..256 for 8 bit, 0..65536 for 16 bit, 0..1 for float.
+/// `distribution` is what the values should have over that range.
 struct Analysis {
   PowerSpectrum power;
   FiguresOfMerit figures;
 };
 Analysis analyse(std::span<const double> values, Shape shape, double low, double high,
-                 const Execution& execution = {});
+                 const Execution& execution = {}, Distribution distribution = Distribution::uniform);
 
-/// The centred power in grey, in decibels: `low_db` and less is 0, `high_db` and more 255; white noise is 0 dB.
+/// The centred power in grey, in decibels: `low_db` and less is 0, `high_db` and more 255; white noise is 0
+/// dB.
 Grid<std::uint8_t> log_picture(const PowerSpectrum& power, double low_db = -50.0, double high_db = 12.5);
 
-/// Lines "axis,frequency,power,anisotropy_db,count", with a header: the radial curve (axis "space"), and for a
-/// volume the curve in time after it (axis "time"). Undefined values are empty.
+/// Lines "axis,frequency,power,anisotropy_db,count", with a header: the radial curve (axis "space"), and for
+/// a volume the curve in time after it (axis "time"). Undefined values are empty.
 std::string curves_csv(const PowerSpectrum& power);
 
-/// One JSON object: bands, peak, peak_frequency, anisotropy_db_mean, anisotropy_db_max,
-/// gauss_residual_db, histogram_max_deviation, width, height, depth, textures, and for volumes
-/// temporal_power_at_0 and temporal_power_low. Undefined figures are null.
+/// One JSON object: size ([width, height]), depth, textures, bands, peak, peak_frequency, anisotropy_db_mean,
+/// anisotropy_db_max, gauss_residual_db, histogram_max_deviation, distribution; distribution_distance where
+/// the distribution is not uniform; temporal_power_at_0 and temporal_power_low for volumes. Undefined figures
+/// are null. docs/spectrum.md describes each.
 std::string to_json(const FiguresOfMerit& figures);
+
+// --- two textures ----------------------------------------------------------------------------------
+
+/// What two textures of one shape have in common, of their ranks. NaN where one of them is constant.
+struct CrossSpectrum {
+  double correlation = 0.0;       ///< of the pixels at the same place, -1..1
+  double peak_correlation = 0.0;  ///< the one furthest from 0 over all displacements on the torus
+  /// Where: the second at p + (x, y, z) is what the first is at p. The nearest to no displacement.
+  int peak_x = 0, peak_y = 0, peak_z = 0;
+  /// What |peak_correlation| stays below if the two are independent: six standard deviations of the chance
+  /// that their own spectra leave. 1 and more: they are too small to tell.
+  double limit = 0.0;
+  /// By band, |sum F1 conj(F2)|^2 / (sum |F1|^2 sum |F2|^2): 1 for equal textures, about 1/n for independent
+  /// ones, n half the frequencies of the band. A displacement lowers it: it turns every frequency by another
+  /// angle.
+  std::array<double, 5> coherence{};
+
+  bool can_tell() const { return limit < 1.0; }
+  bool independent() const { return !(std::abs(peak_correlation) > limit); }
+};
+
+/// Memory: four complex halves of the shape. Cost: three transforms.
+CrossSpectrum cross_spectrum(std::span<const double> first, std::span<const double> second, Shape shape,
+                             const Execution& execution = {});
 
 // --- checks --------------------------------------------------------------------------------------
 
@@ -202,7 +244,7 @@ enum class Check {
 struct CheckFailure {
   std::string figure;  ///< its JSON name, "bands[0]"
   double value;
-  double low, high;    ///< the range it missed
+  double low, high;  ///< the range it missed
 };
 
 /// The figures outside their thresholds (check.cpp states each with its reason); empty: passed.
@@ -216,6 +258,13 @@ struct JudgedFigure {
   double low, high;
   bool passed;
 };
+
+/// The words of a figure by its JSON name, in ASCII: "power, 0 < f <= .0625" for "bands[0]".
+std::string label_of(std::string_view figure);
+
+/// "power, 0 < f <= .0625: 0.015, at most 0.002".
+std::string describe(const JudgedFigure& figure);
+std::string describe(const CheckFailure& failure);
 
 /// Every figure that check() judges, in its order.
 std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind);
