@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -64,11 +65,16 @@ std::string short_number(double value) {
 
 Candidate power_curve(const Spread& spread) {
   const double e = exponent_of(spread);
-  std::string text =
-      fmt::format("looks gamma-{}, exponent {}", e < 1.0 ? "encoded" : "decoded", short_number(e));
-  for (const double known : {1.8, 2.0, 2.2, 2.4}) {
-    if (std::abs(1.0 / e - known) < 0.03) text += fmt::format(" (1/{:.1f})", known);
+  double shown = e;
+  std::string_view known_as;
+  // Rounding to levels moves the exponent by a hundredth; the usual ones are called by their names.
+  for (const auto& [known, name] :
+       {std::pair(1.8, "1.8"), std::pair(2.0, "2"), std::pair(2.2, "2.2"), std::pair(2.4, "2.4")}) {
+    if (std::abs(1.0 / e - known) < 0.04) shown = 1.0 / known, known_as = name;
   }
+  std::string text =
+      fmt::format("looks gamma-{}, exponent {}", e < 1.0 ? "encoded" : "decoded", short_number(shown));
+  if (!known_as.empty()) text += fmt::format(" (1/{})", known_as);
   return {{.cause = Cause::gamma, .text = text, .number = e}, distance_of_curve(spread, e)};
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,9 +35,10 @@ struct GradePart {
 /// it and 0 at 10 dB beyond, which is a Bayer matrix. The grade is the least score; docs/spectrum.md has the
 /// reference.
 struct Grade {
-  double score;         ///< NaN where nothing can be graded (too small; Check::white)
-  std::string weakest;  ///< JSON name of the figure that decides; empty if nothing falls short of 100
-  std::vector<GradePart> parts;
+  double score = std::numeric_limits<double>::quiet_NaN();  ///< NaN where nothing can be graded (too small;
+                                                            ///< Check::white)
+  std::string weakest = {};  ///< JSON name of the figure that decides; empty if nothing falls short of 100
+  std::vector<GradePart> parts = {};
 };
 Grade grade(const FiguresOfMerit& figures, Check kind);
 
