@@ -136,17 +136,17 @@ std::string limits_in_words(double low, double high) {
 
 std::string label_of(std::string_view figure) {
   static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kLabels{{
-      {"bands[0]", "power, 0 < f <= .0625"},
-      {"bands[1]", "power, .0625 < f <= .125"},
-      {"bands[2]", "power, .125 < f <= .1875"},
-      {"bands[3]", "power, .1875 < f <= .25"},
-      {"bands[4]", "power, .25 < f <= .5"},
+      {"bands[0]", "power, 0 < f <= 0.0625"},
+      {"bands[1]", "power, 0.0625 < f <= 0.125"},
+      {"bands[2]", "power, 0.125 < f <= 0.1875"},
+      {"bands[3]", "power, 0.1875 < f <= 0.25"},
+      {"bands[4]", "power, 0.25 < f <= 0.5"},
       {"anisotropy_db_mean", "anisotropy, mean, dB"},
       {"anisotropy_db_max", "anisotropy, largest, dB"},
       {"histogram_max_deviation", "histogram, largest deviation"},
       {"distribution_distance", "distribution, largest distance"},
       {"temporal_power_at_0", "power in time, 0 cycles/frame"},
-      {"temporal_power_low", "power in time, 0 < f <= .125"},
+      {"temporal_power_low", "power in time, 0 < f <= 0.125"},
       {"peak", "peak of the radial power"},
       {"depth", "slices"},
   }};

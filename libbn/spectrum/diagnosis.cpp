@@ -30,7 +30,7 @@ std::optional<Finding> find_picture(const FiguresOfMerit& figures) {
   return Finding{
       .cause = Cause::picture,
       .text = fmt::format("looks like a picture, not like noise: {:.3g} times the power of white noise at "
-                          "0 < f <= .0625",
+                          "0 < f <= 0.0625",
                           power),
       .number = power};
 }
@@ -108,10 +108,11 @@ std::vector<Finding> diagnose(const Samples& samples, const Analysis& analysis, 
   };
   // Whatever is enlarged looks smooth too, and what has its bytes swapped fits no curve: one cause a texture
   // of each sort.
-  if (!add(find_swapped_bytes(samples, analysis, execution))) add(find_curve(samples, execution));
   if (!add(find_enlarged(samples))) add(find_smoothed(analysis.figures, analysis.power));
   add(find_repeated(samples));
-  if (findings.empty()) add(find_picture(analysis.figures));
+  // The values of a picture follow no law, whatever curve they happen to be near.
+  if (findings.empty() && add(find_picture(analysis.figures))) return findings;
+  if (!add(find_swapped_bytes(samples, analysis, execution))) add(find_curve(samples, execution));
   return findings;
 }
 

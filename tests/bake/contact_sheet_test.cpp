@@ -48,12 +48,5 @@ TEST(LabelFont, HasEveryCharacterACaptionMayUse) {
   EXPECT_EQ(pixels('\x01'), pixels('?'));
 }
 
-TEST(MoveColour, HasNoHueWithoutAMoveAndDiffersByDirection) {
-  const Colour none = move_colour({0, 0}, 6.0);
-  EXPECT_LE(std::max({none.red, none.green, none.blue}) - std::min({none.red, none.green, none.blue}), 2);
-  EXPECT_FALSE(move_colour({6, 0}, 6.0) == move_colour({-6, 0}, 6.0));
-  EXPECT_FALSE(move_colour({0, 6}, 6.0) == move_colour({0, -6}, 6.0));
-}
-
 }  // namespace
 }  // namespace bn

@@ -274,7 +274,7 @@ TEST_F(SpectrumVerb, ChecksASpatiotemporalVolume) {
   EXPECT_EQ(good.exit_code, 0) << good.err;
   const ProcessResult bad = run(disordered);
   EXPECT_EQ(bad.exit_code, 5);
-  EXPECT_NE(bad.err.find("power in time, 0 < f <= .125: "), std::string::npos) << bad.err;
+  EXPECT_NE(bad.err.find("power in time, 0 < f <= 0.125: "), std::string::npos) << bad.err;
 }
 
 TEST_F(SpectrumVerb, WritesPictureAndCurves) {

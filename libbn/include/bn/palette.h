@@ -22,7 +22,7 @@ struct Rgb8 {
 
 /// The colour of a move: grey where there is none, the direction its hue, the length its strength, as a share
 /// of `longest` (above 0) and full from there on. All of equal lightness, so that no direction stands out.
-/// Right is red, down is blue-violet, left is green-blue, up is yellow-green.
+/// Right is pink, down is blue-violet, left is green-blue, up is yellow-green.
 Rgb8 move_colour(Offset move, double longest);
 
 /// The legend of the above: a disc `side` pixels wide (at least 1), each pixel in the colour of the move that
@@ -33,7 +33,7 @@ Grid<Rgb8> move_disc(int side, Rgb8 outside);
 Rgb8 scale_colour(double share);
 
 /// Colours of curves that also those tell apart who see few (Okabe and Ito 2008).
-inline constexpr std::array<Rgb8, 7> kCurveColours{{{0x00, 0x72, 0xb2},    // blue
+inline constexpr std::array<Rgb8, 7> kCurvePalette{{{0x00, 0x72, 0xb2},    // blue
                                                     {0xd5, 0x5e, 0x00},    // vermilion
                                                     {0x00, 0x9e, 0x73},    // green
                                                     {0xcc, 0x79, 0xa7},    // purple

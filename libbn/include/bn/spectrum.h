@@ -259,10 +259,10 @@ struct JudgedFigure {
   bool passed;
 };
 
-/// The words of a figure by its JSON name, in ASCII: "power, 0 < f <= .0625" for "bands[0]".
+/// The words of a figure by its JSON name, in ASCII: "power, 0 < f <= 0.0625" for "bands[0]".
 std::string label_of(std::string_view figure);
 
-/// "power, 0 < f <= .0625: 0.015, at most 0.002".
+/// "power, 0 < f <= 0.0625: 0.015, at most 0.002".
 std::string describe(const JudgedFigure& figure);
 std::string describe(const CheckFailure& failure);
 
