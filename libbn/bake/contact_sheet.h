@@ -9,7 +9,7 @@
 namespace bn {
 
 /// Raised whenever the same textures would give another picture.
-inline constexpr int kContactSheetVersion = 1;
+inline constexpr int kContactSheetVersion = 2;
 inline constexpr const char* kContactSheetJob = "contact_sheet";
 
 Metadata contact_sheet_metadata(const JobFile& file);

@@ -117,9 +117,14 @@ Image moves_image(const Grid<Offset>& moves, Offset motion, int radius) {
 }
 
 Image moves_legend(int side) {
-  // White is no move's colour; the page lies round the disc in light and in dark.
-  const Grid<Rgb8> disc = move_disc(side, {255, 255, 255});
-  return palette_image(disc.size(), [&](int x, int y) { return disc(x, y); });
+  // The page shows through round the disc, whatever its colour.
+  const Grid<Rgb8> disc = move_disc(side, {});
+  Image image{.size = {side, side}, .channels = 4, .type = SampleType::u8, .samples = {}};
+  for (const Rgb8& c : disc) {
+    const std::uint8_t opaque = c == Rgb8{} ? 0 : 255;
+    for (const std::uint8_t part : {c.red, c.green, c.blue, opaque}) image.samples.push_back(std::byte{part});
+  }
+  return image;
 }
 
 Grid<double> photograph(Extent size) {
