@@ -27,6 +27,7 @@ std::string size_of(const Shape& shape) {
 
 std::string_view verdict_of(const SpectrumRow& row) {
   if (!row.set_aside.empty() || !row.judgement) return "-";
+  if (!row.relation.empty()) return "FAIL";
   switch (row.judgement->outcome) {
     case Judgement::Outcome::good:
       return "pass";
@@ -43,8 +44,9 @@ std::string_view verdict_of(const SpectrumRow& row) {
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3g}", value); }
 std::string score(double value) { return std::isnan(value) ? "-" : fmt::format("{:.0f}", value); }
 
-/// The end of a name that is too long for its column.
-std::string shortened(const std::string& name, std::size_t width) {
+/// "rgba.png:2"; of a name that is too long for its column the end.
+std::string short_name(const SpectrumRow& row, std::size_t width) {
+  const std::string name = row.only_channel ? row.file : fmt::format("{}:{}", row.file, row.channel);
   return name.size() <= width ? name : "..." + name.substr(name.size() - width + 3);
 }
 
@@ -153,14 +155,16 @@ std::string table(const std::vector<SpectrumRow>& rows) {
   const std::string head =
       fmt::format("{:<7} {:>5} {:<{}}{:>8} {:>10} {:>10} {:>9}  ", "verdict", "grade", one_size ? "" : "size",
                   size_width, "0-.0625", ".0625-.125", ".125-.1875", ".1875-.25");
-  text += head + "texture\n";
+  const bool channels =
+      std::any_of(rows.begin(), rows.end(), [](const auto& row) { return !row.only_channel; });
+  text += head + (channels ? "texture:channel\n" : "texture\n");
   for (const SpectrumRow& row : rows) {
     const auto& bands = row.figures.bands.mean;
     text += fmt::format("{:<7} {:>5} {:<{}}{:>8} {:>10} {:>10} {:>9}  {}\n", verdict_of(row),
                         row.set_aside.empty() ? score(row.grade.score) : "-",
                         one_size ? "" : size_of(row.figures.shape), size_width, number(bands[0]),
                         number(bands[1]), number(bands[2]), number(bands[3]),
-                        shortened(row.name(), kColumns - head.size()));
+                        short_name(row, kColumns - head.size()));
   }
   for (const SpectrumRow& row : rows) {
     if (!row.set_aside.empty()) {
@@ -236,12 +240,15 @@ Json to_json(const Grade& grade) {
           {"parts", parts}};
 }
 
-void add_judgement(const Judgement& judgement, Json& json) {
-  json["verdict"] = name_of(judgement.outcome);
+void add_judgement(const SpectrumRow& row, Json& json) {
+  const Judgement& judgement = *row.judgement;
+  const bool independent = row.relation.empty();
+  json["verdict"] = independent ? name_of(judgement.outcome) : name_of(Judgement::Outcome::failed);
   json["headline"] = judgement.headline;
-  json["passed"] =
-      judgement.outcome == Judgement::Outcome::cannot_tell ? Json(nullptr) : Json(judgement.passed());
+  const bool untold = independent && judgement.outcome == Judgement::Outcome::cannot_tell;
+  json["passed"] = untold ? Json(nullptr) : Json(independent && judgement.passed());
   json["reasons"] = judgement.reasons;
+  if (!independent) json["reasons"].push_back(row.relation);
   json["failures"] = Json::array();
   for (const JudgedFigure& figure : judgement.judged) {
     if (figure.passed) continue;
@@ -294,7 +301,7 @@ Json to_json(const SpectrumResult& result) {
     item.update(Json::parse(bn::to_json(row.figures)));
     item["grade"] = to_json(row.grade);
     if (!row.set_aside.empty()) item["set_aside"] = row.set_aside;
-    if (row.judgement) add_judgement(*row.judgement, item);
+    if (row.judgement) add_judgement(row, item);
     json["textures"].push_back(std::move(item));
   }
   for (const ChannelPair& pair : result.pairs) {

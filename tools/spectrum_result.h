@@ -20,8 +20,10 @@ struct SpectrumRow {
   FiguresOfMerit figures;
   Grade grade;
   std::optional<Judgement> judgement;  ///< where a check was asked for
-  std::string set_aside;               ///< why it is not judged: "an opaque alpha channel"; else empty
-  std::string name() const;            ///< "rgba.png, channel 2"
+  std::string
+      relation;  ///< to an earlier channel of its file, "is channel 0 moved by (5, 3)"; it fails a check
+  std::string set_aside;     ///< why it is not judged: "an opaque alpha channel"; else empty
+  std::string name() const;  ///< "rgba.png, channel 2"
 };
 
 /// Two channels of one file.

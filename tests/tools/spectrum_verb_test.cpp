@@ -39,7 +39,9 @@ TEST_F(SpectrumVerb, PassesABlueMaskAndFailsABayerMatrix) {
   write("white.exr", white_noise_mask({64, 64}, 1), SampleType::f32);
   EXPECT_EQ(run({"good.png", "--check", "blue"}).exit_code, 0);
   EXPECT_EQ(run({"white.exr", "--check", "white"}).exit_code, 0);
-  const ProcessResult failed = run({"good.png", "bayer.png", "--check", "blue"});
+  write("other.png", void_and_cluster({.size = {64, 64}, .seed = 2}));
+  const ProcessResult failed = run({"good.png", "other.png", "bayer.png", "--check", "blue"});
+  EXPECT_NE(failed.out.find("the average leaves out 1 that fails"), std::string::npos) << failed.out;
   EXPECT_EQ(failed.exit_code, 5);
   EXPECT_NE(failed.err.find("bayer.png: is one tile repeated"), std::string::npos) << failed.err;
   EXPECT_NE(failed.out.find("FAIL  bayer.png\n"), std::string::npos) << failed.out;
@@ -135,7 +137,7 @@ TEST_F(SpectrumVerb, JudgesEveryChannelAndComparesThem) {
   packed("good.png", four);
   const ProcessResult good = run({"good.png", "--check", "blue"});
   EXPECT_EQ(good.exit_code, 0) << good.err;
-  EXPECT_NE(good.out.find("channel 3"), std::string::npos);
+  EXPECT_NE(good.out.find("good.png:3"), std::string::npos);
   EXPECT_NE(good.out.find("the channels are independent"), std::string::npos) << good.out;
 
   auto shifted = four;
@@ -147,6 +149,11 @@ TEST_F(SpectrumVerb, JudgesEveryChannelAndComparesThem) {
   EXPECT_EQ(moved.exit_code, 5);
   EXPECT_NE(moved.err.find("shifted.png: channel 2 is channel 0 moved by (7, -2)"), std::string::npos)
       << moved.err;
+  const auto textures =
+      nlohmann::json::parse(run({"shifted.png", "--json", "--check", "blue"}).out).at("textures");
+  EXPECT_EQ(textures.at(1).at("passed"), true);
+  EXPECT_EQ(textures.at(2).at("passed"), false);
+  EXPECT_EQ(textures.at(2).at("reasons").back(), "is channel 0 moved by (7, -2)");
   const auto pairs = nlohmann::json::parse(run({"shifted.png", "--json"}).out).at("channel_pairs");
   ASSERT_EQ(pairs.size(), 6u);
   EXPECT_EQ(pairs.at(0).at("independent"), true);
