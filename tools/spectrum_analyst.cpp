@@ -198,12 +198,19 @@ std::vector<int> SpectrumAnalyst::channels_to_judge(const StackedTexture& textur
 
 std::string SpectrumAnalyst::aside_of(const StackedTexture& texture, int c) const {
   const std::size_t count = texture.channels.size();
-  if (settings_.channel || (count != 2 && count != 4) || c + 1 != static_cast<int>(count)) return {};
-  const ChannelSamples& alpha = texture.channels.back();
-  const double top = alpha.high > 2.0 ? alpha.high - 1.0 : 1.0;
-  const bool opaque =
-      std::all_of(alpha.value.begin(), alpha.value.end(), [&](double value) { return value == top; });
-  return opaque ? "not judged: it is constant, an opaque alpha channel" : "";
+  if (settings_.channel || count == 1) return {};
+  const auto constant = [](const ChannelSamples& channel) {
+    return std::all_of(channel.value.begin(), channel.value.end(),
+                       [&](double value) { return value == channel.value.front(); });
+  };
+  const ChannelSamples& channel = texture.channels[static_cast<std::size_t>(c)];
+  if (!constant(channel) || std::all_of(texture.channels.begin(), texture.channels.end(), constant))
+    return {};
+  const double value = channel.value.front();
+  const bool opaque = (count == 2 || count == 4) && c + 1 == static_cast<int>(count) &&
+                      value == (channel.high > 2.0 ? channel.high - 1.0 : 1.0);
+  return opaque ? "not judged: it is constant, an opaque alpha channel"
+                : fmt::format("not judged: it is constant, every value is {:.6g}", value);
 }
 
 /// Compares two channels; whether the second is the first, wherever it stands.

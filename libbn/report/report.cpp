@@ -67,7 +67,7 @@ std::string file_name_for(const std::string& name, std::set<std::string>& taken)
 }
 
 /// All textures' curves over each other. Six can be told apart; of more, the five of the lowest grades have
-/// colours of their own and the others are one grey band of lines.
+/// colours of their own and the others are one pale band of lines.
 void add_common_plots(report::Page& page, const report::Reference& reference) {
   page.common_power = report::power_plot("compare-power", reference);
   page.common_anisotropy = report::anisotropy_plot("compare-anisotropy", reference);
@@ -83,7 +83,7 @@ void add_common_plots(report::Page& page, const report::Reference& reference) {
       return (std::isnan(a->grade) ? -1.0 : a->grade) < (std::isnan(b->grade) ? -1.0 : b->grade);
     });
     named.resize(report::kCurveColours - 1);
-    page.common_caption = fmt::format(" In colour the {} of the lowest grades, in grey the other {}.",
+    page.common_caption = fmt::format(" In colour the {} of the lowest grades, in pale violet the other {}.",
                                       named.size(), shown.size() - named.size());
   }
   for (const auto& [which, plot] :

@@ -108,11 +108,12 @@ std::vector<Finding> diagnose(const Samples& samples, const Analysis& analysis, 
   };
   // Whatever is enlarged looks smooth too, and what has its bytes swapped fits no curve: one cause a texture
   // of each sort.
-  if (!add(find_enlarged(samples))) add(find_smoothed(analysis.figures, analysis.power));
-  add(find_repeated(samples));
+  if (!add(spectrum::find_enlarged(samples))) add(spectrum::find_smoothed(analysis.figures, analysis.power));
+  add(spectrum::find_repeated(samples));
   // The values of a picture follow no law, whatever curve they happen to be near.
   if (findings.empty() && add(find_picture(analysis.figures))) return findings;
-  if (!add(find_swapped_bytes(samples, analysis, execution))) add(find_curve(samples, execution));
+  if (!add(spectrum::find_swapped_bytes(samples, analysis, execution)))
+    add(spectrum::find_curve(samples, execution));
   return findings;
 }
 

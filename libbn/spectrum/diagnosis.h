@@ -6,7 +6,7 @@
 
 #include "bn/judgement.h"
 
-namespace bn {
+namespace bn::spectrum {
 
 /// diagnosis_values.cpp: what was done to the values, wherever they stand.
 std::optional<Finding> find_curve(const Samples& samples, const Execution& execution);
@@ -18,4 +18,4 @@ std::optional<Finding> find_enlarged(const Samples& samples);
 std::optional<Finding> find_smoothed(const FiguresOfMerit& figures, const PowerSpectrum& power);
 std::optional<Finding> find_repeated(const Samples& samples);
 
-}  // namespace bn
+}  // namespace bn::spectrum

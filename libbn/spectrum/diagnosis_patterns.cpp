@@ -11,6 +11,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+namespace spectrum {
 namespace {
 
 /// Where the radial peak of a blue-noise mask lies, cycles/pixel; enlarged by s it lies at 1/s of that.
@@ -143,6 +144,8 @@ std::optional<Finding> find_repeated(const Samples& samples) {
                  .y = y,
                  .z = z};
 }
+
+}  // namespace spectrum
 
 std::vector<Finding> diagnose_alpha(std::span<const Samples> channels) {
   if (channels.size() != 2 && channels.size() != 4) return {};

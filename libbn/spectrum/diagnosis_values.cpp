@@ -16,7 +16,7 @@
 #include "spectrum/diagnosis.h"
 #include "spectrum/distribution.h"
 
-namespace bn {
+namespace bn::spectrum {
 namespace {
 
 /// A curve is told only where it leaves this, and a third of what a straight line leaves.
@@ -168,4 +168,4 @@ std::optional<Finding> find_swapped_bytes(const Samples& samples, const Analysis
   return Finding{.cause = Cause::bytes_swapped, .text = "looks like 16-bit samples with their bytes swapped"};
 }
 
-}  // namespace bn
+}  // namespace bn::spectrum

@@ -8,6 +8,8 @@ std::string_view name_of(Distribution distribution) {
   return distribution == Distribution::triangular ? "triangular" : "uniform";
 }
 
+namespace spectrum {
+
 Spread spread_of(std::span<const double> values, double low, double high, const Execution& execution) {
   Spread spread{std::vector<double>(values.size()), midranks(values, execution)};
   const double count = static_cast<double>(values.size());
@@ -20,4 +22,5 @@ Spread spread_of(std::span<const double> values, double low, double high, const 
   return spread;
 }
 
+}  // namespace spectrum
 }  // namespace bn

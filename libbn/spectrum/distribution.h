@@ -8,7 +8,7 @@
 
 #include "bn/spectrum.h"
 
-namespace bn {
+namespace bn::spectrum {
 
 /// Every value as its place in the range, 0..1, and the share of the values below it. Of stored levels, which
 /// are whole numbers, the place is the middle of the level's step; values equal to it count half.
@@ -35,4 +35,4 @@ inline double triangular_share(double place) {
   return place < 0.5 ? 2.0 * place * place : 1.0 - 2.0 * (1.0 - place) * (1.0 - place);
 }
 
-}  // namespace bn
+}  // namespace bn::spectrum

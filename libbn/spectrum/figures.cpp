@@ -104,8 +104,9 @@ Analysis analyse(std::span<const double> values, Shape shape, double low, double
   FiguresOfMerit figures = figures_of_merit(power, deviation);
   figures.distribution = distribution;
   if (distribution == Distribution::triangular) {
-    const Spread spread = spread_of(values, low, high, execution);
-    figures.distribution_distance = distance_from(spread, [](double u) { return triangular_share(u); });
+    const spectrum::Spread spread = spectrum::spread_of(values, low, high, execution);
+    figures.distribution_distance =
+        spectrum::distance_from(spread, [](double u) { return spectrum::triangular_share(u); });
   }
   return {std::move(power), figures};
 }

@@ -171,6 +171,12 @@ TEST_F(SpectrumVerb, JudgesEveryChannelAndComparesThem) {
   EXPECT_NE(grey.out.find("grey stored as colour"), std::string::npos) << grey.out;
   EXPECT_NE(grey.out.find("opaque alpha"), std::string::npos) << grey.out;
 
+  const Grid<std::uint32_t> unused(Extent{64, 64}, 0);
+  packed("unused.png", {four[0], four[1], unused});
+  const ProcessResult two = run({"unused.png", "--check", "blue"});
+  EXPECT_EQ(two.exit_code, 0) << two.err;
+  EXPECT_NE(two.out.find("not judged: it is constant, every value is 0"), std::string::npos) << two.out;
+
   auto bad = four;
   bad[1] = bayer_mask(64);
   packed("bad.png", bad);
