@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -41,15 +44,32 @@ bool everywhere(const Shape& shape, const Test& test) {
   return true;
 }
 
-/// Least period of at most three quarters of a side, or 0. `equal(p)` says whether a move by p changes
-/// nothing.
+/// A line of values as one number, so that lines are compared at once. Equal lines have equal ones; that
+/// unequal lines have is as likely as 2^-64, and is looked into.
+struct LineHash {
+  std::uint64_t state = 0x9e3779b97f4a7c15u;
+  void add(double value) {
+    state ^= std::bit_cast<std::uint64_t>(value + 0.0);  // -0 is 0
+    state = (state ^ state >> 29) * 0xbf58476d1ce4e5b9u;
+  }
+};
+
+/// Least move by which `lines` repeat themselves, of at most three quarters of them, with enough beyond it to
+/// compare; or 0. `equal(p)` makes sure.
 template <class Equal>
-int least_period(int side, const Equal& equal) {
-  for (int p = 1; p <= 3 * side / 4 && p <= side - std::min(kLeastOverlap, side / 2); ++p) {
-    if (equal(p)) return p;
+int least_period(const std::vector<LineHash>& lines, int most, const Equal& equal) {
+  const auto count = static_cast<int>(lines.size());
+  for (int p = 1; p <= most; ++p) {
+    int i = 0;
+    while (i + p < count &&
+           lines[static_cast<std::size_t>(i)].state == lines[static_cast<std::size_t>(i + p)].state)
+      ++i;
+    if (i + p == count && equal(p)) return p;
   }
   return 0;
 }
+
+int most_period(int side) { return std::min(3 * side / 4, side - std::min(kLeastOverlap, side / 2)); }
 
 int largest_block(int side, const auto& blocky) {
   for (int k = side / 2; k >= 2; --k) {
@@ -122,21 +142,27 @@ std::optional<Finding> find_smoothed(const FiguresOfMerit& figures, const PowerS
 std::optional<Finding> find_repeated(const Samples& samples) {
   const Shape& s = samples.shape;
   const View at{samples};
-  const int x = least_period(s.width, [&](int p) {
+  std::vector<LineHash> columns(static_cast<std::size_t>(s.width)), rows(static_cast<std::size_t>(s.height)),
+      slices(static_cast<std::size_t>(s.depth));
+  everywhere(s, [&](int px, int py, int pz) {
+    const double value = at(px, py, pz);
+    columns[static_cast<std::size_t>(px)].add(value);
+    rows[static_cast<std::size_t>(py)].add(value);
+    slices[static_cast<std::size_t>(pz)].add(value);
+    return true;
+  });
+  const int x = least_period(columns, most_period(s.width), [&](int p) {
     return everywhere({s.width - p, s.height, s.depth},
                       [&](int px, int py, int pz) { return at(px, py, pz) == at(px + p, py, pz); });
   });
-  const int y = least_period(s.height, [&](int p) {
+  const int y = least_period(rows, most_period(s.height), [&](int p) {
     return everywhere({s.width, s.height - p, s.depth},
                       [&](int px, int py, int pz) { return at(px, py, pz) == at(px, py + p, pz); });
   });
-  int z = 0;
-  for (int p = 1; p <= s.depth / 2 && z == 0; ++p) {
-    if (everywhere({s.width, s.height, s.depth - p},
-                   [&](int px, int py, int pz) { return at(px, py, pz) == at(px, py, pz + p); })) {
-      z = p;
-    }
-  }
+  const int z = least_period(slices, s.depth / 2, [&](int p) {
+    return everywhere({s.width, s.height, s.depth - p},
+                      [&](int px, int py, int pz) { return at(px, py, pz) == at(px, py, pz + p); });
+  });
   if (x == 0 && y == 0 && z == 0) return {};
   return Finding{.cause = Cause::repeated,
                  .text = "is one tile repeated, every " + period_in_words(x, y, z),

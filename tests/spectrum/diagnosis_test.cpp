@@ -188,6 +188,16 @@ TEST(Diagnose, FindsRepeatedTiles) {
   EXPECT_EQ(diagnosis(volume, {16, 16, 8}, 0, 256).at(0).z, 4);
 }
 
+TEST(Diagnose, SearchesALargePictureOfHardlyAnything) {
+  // All but three pixels are equal, at the end: every period is refuted by the last pixel only.
+  const Shape shape{2048, 2048};
+  std::vector<double> values(static_cast<std::size_t>(shape.count()), 5.0);
+  values.end()[-1] = 7.0;
+  values.end()[-2] = 9.0;
+  values.end()[-2049] = 11.0;
+  for (const Finding& finding : diagnosis(values, shape, 0, 256)) EXPECT_NE(finding.cause, Cause::repeated);
+}
+
 TEST(Diagnose, FindsConstantsAndTwoLevels) {
   EXPECT_EQ(diagnosis(std::vector<double>(4096, 7.0), kSmall, 0, 256).at(0).cause, Cause::constant);
   const auto bits = thresholded(ranks(64), 0.25);
