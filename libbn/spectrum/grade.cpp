@@ -20,8 +20,8 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// 95 of 100 masks of side x side, stored in 8 bit, read less. 200 seeds a size to 64, 64 at 128, 24 at 256, 8 at
-/// 512; docs/spectrum.md has the command. Rounding to 8 bit adds .000015 to every band.
+/// 95 of 100 masks of side x side, stored in 8 bit, read less. 200 seeds a size to 64, 64 at 128, 24 at 256,
+/// 8 at 512; docs/spectrum.md has the command. Rounding to 8 bit adds .000015 to every band.
 struct BestKnown {
   double side;
   std::array<double, 4> bands;
@@ -63,14 +63,14 @@ std::array<double, 4> best_known_bands(Shape shape) {
   const double side = std::sqrt(static_cast<double>(shape.width) * shape.height);
   if (side <= kBestKnown.front().side) return kBestKnown.front().bands;
   if (side >= kBestKnown.back().side) return kBestKnown.back().bands;
-  const auto above = std::find_if(kBestKnown.begin(), kBestKnown.end(),
-                                  [&](const BestKnown& known) { return known.side >= side; });
-  const auto below = above - 1;
-  const double share = std::log(side / below->side) / std::log(above->side / below->side);
-  std::array<double, 4> bands;
+  std::size_t next = 1;
+  while (kBestKnown[next].side < side) ++next;
+  const BestKnown &below = kBestKnown[next - 1], &above = kBestKnown[next];
+  const double share = std::log(side / below.side) / std::log(above.side / below.side);
+  std::array<double, 4> bands{};
   for (std::size_t b = 0; b < bands.size(); ++b) {
-    const double low = std::isnan(below->bands[b]) ? above->bands[b] : below->bands[b];
-    bands[b] = low * std::pow(above->bands[b] / low, share);
+    const double low = std::isnan(below.bands[b]) ? above.bands[b] : below.bands[b];
+    bands[b] = low * std::pow(above.bands[b] / low, share);
   }
   return bands;
 }

@@ -44,6 +44,20 @@ TEST(Grade, ReferenceIsWhatOurMasksRead) {
   }
 }
 
+TEST(Grade, ReferenceFallsWithTheSize) {
+  std::array<double, 4> before{1.0, 1.0, 1.0, 1.0};
+  for (const int side : {1, 8, 9, 15, 16, 17, 24, 31, 64, 100, 128, 200, 256, 512, 513, 4096}) {
+    const auto best = best_known_bands({side, side});
+    EXPECT_EQ(std::isnan(best[0]), side <= 8) << side;
+    for (std::size_t b = 0; b < 4; ++b) {
+      if (std::isnan(best[b])) continue;
+      EXPECT_LE(best[b], before[b] * 1.0001) << side << " " << b;
+      EXPECT_GT(best[b], 1e-5);
+      before[b] = best[b];
+    }
+  }
+}
+
 TEST(Grade, OursAreAsGoodAsTheBestKnown) {
   for (const Extent size : {Extent{32, 32}, {64, 64}, {128, 128}, {96, 48}}) {
     const Judgement judgement = judged(ranks(size), size);
