@@ -112,7 +112,8 @@ void run(const std::vector<std::string>& words, const StopOnSignal& signals, Pro
                                 .stop = signals.token(),
                                 .memory_limit_bytes = globals.memory_limit_bytes},
                   .output = output,
-                  .progress = progress};
+                  .progress = progress,
+                  .quiet = globals.quiet};
   invocation.verb->run(session);
   progress.finish();
 }

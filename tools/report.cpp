@@ -18,9 +18,10 @@ struct Settings {
 
 std::string verdict_of(const ReportSummary& summary) {
   const int judged = summary.masks + summary.retarget_sets + summary.volumes - summary.not_judged;
-  const std::string verdict = judged == 0           ? "none judged"
-                              : summary.failed == 0 ? "all within their thresholds"
-                                                    : fmt::format("{} miss a threshold", summary.failed);
+  std::string verdict = judged == 0           ? "none judged"
+                        : summary.failed == 0 ? "all within their thresholds"
+                                              : fmt::format("{} of {} fail", summary.failed, judged);
+  if (summary.weak > 0) verdict += fmt::format(", {} weak", summary.weak);
   return judged == 0 || summary.not_judged == 0
              ? verdict
              : fmt::format("{}, {} not judged", verdict, summary.not_judged);
@@ -34,12 +35,14 @@ void run(const Settings& settings, Session& session) {
                                  {"retarget_sets", summary.retarget_sets},
                                  {"volumes", summary.volumes},
                                  {"failed", summary.failed},
+                                 {"weak", summary.weak},
                                  {"not_judged", summary.not_judged},
                                  {"notes", summary.notes}},
                                 true);
     return;
   }
   for (const std::string& note : summary.notes) session.progress.note(note);
+  if (session.quiet) return;
   session.output.write(fmt::format("{}: {} textures, {} retarget sets, {} volumes; {}\n",
                                    settings.options.out.string(), summary.masks, summary.retarget_sets,
                                    summary.volumes, verdict_of(summary)));
@@ -64,6 +67,9 @@ Verb report_verb() {
       "pass or fail; for each retarget set its moves, residual, energies and proof, all recomputed; for "
       "volumes the "
       "spectrum in time. docs/report.md explains every part.\n\n"
+      "Verdicts and grades are those of bn spectrum --check blue, for volumes stbn. A channel that is "
+      "another one "
+      "moved or repeated fails.\n\n"
       "Plots need gnuplot (Debian: gnuplot-nox). Without it the page has tables and pictures and says so. "
       "Files that "
       "cannot be read are named in the page; the exit code is 0 as long as one can. A texture that misses "

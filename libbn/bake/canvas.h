@@ -6,14 +6,12 @@
 #include <cstdint>
 #include <string_view>
 
+#include "bn/palette.h"
 #include "bn/texture.h"
 
 namespace bn::baking {
 
-struct Colour {
-  std::uint8_t red = 0, green = 0, blue = 0;
-  friend bool operator==(const Colour&, const Colour&) = default;
-};
+using Colour = Rgb8;
 
 class Canvas {
  public:
@@ -36,12 +34,5 @@ class Canvas {
   void line(double x0, double y0, double x1, double y1, double half_width, Colour colour);
   Grid<Colour> pixels_;
 };
-
-/// The colour of a move: grey where there is none, the hue its direction, the chroma its length as
-/// a share of `longest`. All of equal lightness, so that no direction stands out.
-Colour move_colour(Offset move, double longest);
-
-/// A sequential scale from dark to light for a share 0..1.
-Colour scale_colour(double share);
 
 }  // namespace bn::baking

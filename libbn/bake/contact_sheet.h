@@ -9,7 +9,7 @@
 namespace bn::baking {
 
 /// Raised whenever the same textures would give another picture.
-inline constexpr int kContactSheetVersion = 1;
+inline constexpr int kContactSheetVersion = 2;
 inline constexpr const char* kContactSheetKind = "contact-sheet";  ///< of the job and of the file
 inline constexpr const char* kContactSheetJob = "contact_sheet";   ///< the job's name
 

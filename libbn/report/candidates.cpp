@@ -25,8 +25,9 @@ using Json = nlohmann::json;
 constexpr std::uintmax_t kMaxManifestBytes = 16u << 20;
 
 bool is_texture_name(const fs::path& path) {
-  static const std::set<std::string> kExtensions{".png", ".exr", ".tif", ".tiff", ".bin", ".h",   ".bmp",
-                                                 ".hdr", ".pfm", ".pgm", ".ppm",  ".tga", ".jpg", ".jpeg"};
+  static const std::set<std::string> kExtensions{".png", ".exr",  ".tif",  ".tiff", ".bin", ".h",
+                                                 ".bmp", ".hdr",  ".pfm",  ".pgm",  ".ppm", ".tga",
+                                                 ".jpg", ".jpeg", ".ktx2", ".dds"};
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   return kExtensions.contains(extension);
@@ -71,7 +72,10 @@ std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, cons
   while (!error && entry != end) {
     throw_if_stopped(execution);
     std::error_code ignored;
-    if (entry->is_regular_file(ignored) && is_texture_name(entry->path())) {
+    if (entry->path().filename().string().starts_with('.')) {
+      // Hidden: what systems and editors leave beside files (._slice.png, .slice.png.swp).
+      if (entry->is_directory(ignored)) entry.disable_recursion_pending();
+    } else if (entry->is_regular_file(ignored) && is_texture_name(entry->path())) {
       if (found.size() == static_cast<std::size_t>(kMaxReportFiles)) {
         throw Error({.code = ErrorCode::over_limit,
                      .what = "too many files for one report",

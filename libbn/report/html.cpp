@@ -9,8 +9,8 @@
 namespace bn::report {
 namespace {
 
-/// What a page of 400 pixels has for a picture in a card.
-constexpr int kNarrowPage = 330;
+/// What a page of 400 pixels has for each of two pictures in a row.
+constexpr int kNarrowPage = 168;
 
 /// Length of the well-formed UTF-8 sequence that `text` begins with, 0 if there is none (Unicode 15, table
 /// 3-7).
@@ -95,19 +95,15 @@ std::string number(double value) {
   if (std::isnan(value)) return "\u2013";
   if (std::isinf(value)) return value > 0 ? "\u221E" : "\u2212\u221E";
   const double size = std::abs(value);
-  if (size < 1e15 && size == std::floor(size)) return whole(static_cast<std::int64_t>(value));
-  std::string text;
-  if (size >= 1e-4 && size < 1e5) {
-    const int digits = std::max(0, 2 - static_cast<int>(std::floor(std::log10(size))));
-    text = fmt::format("{:.{}f}", size, std::min(digits, 6));
-  } else {
-    const std::string scientific = fmt::format("{:.1e}", size);
-    const auto e = scientific.find('e');
-    const int exponent = std::atoi(scientific.c_str() + e + 1);
-    text = fmt::format("{}\u202F\u00D7\u202F10<sup>{}{}</sup>", scientific.substr(0, e),
-                       exponent < 0 ? "\u2212" : "", std::abs(exponent));
-  }
-  return value < 0 ? "\u2212" + text : text;
+  if (size >= 1e4 || size == std::floor(size)) return whole(std::llround(std::clamp(value, -1e18, 1e18)));
+  const std::string_view sign = value < 0 ? "\u2212" : "";
+  constexpr double kLeast = 1e-6;
+  if (size < kLeast) return fmt::format("{}&lt;\u202F0.000001", sign);
+  const int digits = std::clamp(2 - static_cast<int>(std::floor(std::log10(size))), 0, 6);
+  std::string text = fmt::format("{:.{}f}", size, digits);
+  while (text.ends_with('0')) text.pop_back();
+  if (text.ends_with('.')) text.pop_back();
+  return std::string(sign) + text;
 }
 
 int scale_for(int pixels, int wanted) { return std::max(1, wanted / std::max(1, pixels)); }
@@ -117,7 +113,9 @@ std::string figure(const Picture& picture) {
   const int whole = pixels * picture.scale;
   const bool cut = picture.shown > 0 && picture.shown < whole;
   const int narrow_scale = std::min(picture.scale, kNarrowPage / pixels);
-  const int narrow = cut ? std::min(picture.shown, kNarrowPage) : pixels * std::max(1, narrow_scale);
+  const int narrow = cut                 ? std::min(picture.shown, kNarrowPage)
+                     : narrow_scale == 0 ? kNarrowPage
+                                         : pixels * narrow_scale;
   return fmt::format(
       "<figure class=\"picture{}\" style=\"--w:{}px;--n:{}px;--z:{}px\"><label class=\"zoom\"><input "
       "type=\"checkbox\" aria-label=\"Show larger\">{}</label><figcaption><b>{}</b> "
@@ -139,9 +137,11 @@ std::string fact(std::string_view name, std::string_view value) {
   return fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", name, value);
 }
 
-std::string badge(bool passed, std::string_view words) {
-  return fmt::format("<span class=\"badge {}\">{}</span>", passed ? "pass" : "fail", words);
+std::string badge_of(std::string_view look, std::string_view words) {
+  return fmt::format("<span class=\"badge {}\">{}</span>", look, words);
 }
+
+std::string badge(bool passed, std::string_view words) { return badge_of(passed ? "pass" : "fail", words); }
 
 std::string badge(bool passed) { return badge(passed, passed ? "pass" : "fail"); }
 

@@ -16,7 +16,8 @@ std::string escaped(std::string_view text);
 
 std::string base64(std::span<const unsigned char> bytes);
 
-/// Three significant digits, as people write them: 0.0518, 2.4 × 10⁻⁵, 3,638 for whole numbers below 10^15.
+/// Three significant digits and at most six decimals, one notation for all: 0.0518, 0.000024, 12.3; whole
+/// numbers with commas, 3,638; below 10^-6 as less than that. HTML.
 std::string number(double value);
 std::string whole(std::int64_t value);
 
@@ -43,5 +44,7 @@ std::string fact(std::string_view name, std::string_view value);
 /// "pass" or "fail" as a badge.
 std::string badge(bool passed);
 std::string badge(bool passed, std::string_view words);
+/// `look`: "pass" (green), "weak" (amber), "fail" (red), "plain" (an outline).
+std::string badge_of(std::string_view look, std::string_view words);
 
 }  // namespace bn::report

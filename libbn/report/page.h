@@ -13,12 +13,14 @@ struct Page {
   std::string title = "Texture report";
   std::string introduction =  ///< HTML
       "Power is |F|²/(N·variance), so white noise reads 1 at every frequency; frequencies are in "
-      "cycles/pixel. A "
-      "click on a picture shows it larger.";
+      "cycles/pixel. The grade is 100 where a texture is as good as the best known of its size, 0 where it "
+      "is no "
+      "better than white noise.<span class=\"screen\"> A click on a picture shows it larger.</span>";
   std::vector<std::string> names;  ///< of the sections
   std::vector<std::string> kinds;  ///< "mask", "retarget set", "volume"
   std::vector<Section> sections;
   std::vector<std::string> notes;
+  std::string common_caption;            ///< which textures the common plots show
   Plot common_power, common_anisotropy;  ///< for --compare; without curves otherwise
   bool compare = false;
 };

@@ -4,7 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <numbers>
+
+#include "bn/palette.h"
 
 namespace bn::report {
 namespace {
@@ -24,28 +25,22 @@ Image colour_image(Extent size, const std::function<Colour(int x, int y)>& colou
   return image;
 }
 
+Image palette_image(Extent size, const std::function<Rgb8(int x, int y)>& colour) {
+  Image image{.size = size, .channels = 3, .type = SampleType::u8, .samples = {}};
+  image.samples.reserve(static_cast<std::size_t>(size.area()) * 3);
+  for (int y = 0; y < size.height; ++y) {
+    for (int x = 0; x < size.width; ++x) {
+      const Rgb8 c = colour(x, y);
+      for (const std::uint8_t part : {c.red, c.green, c.blue}) image.samples.push_back(std::byte{part});
+    }
+  }
+  return image;
+}
+
 Colour mixed(const Colour& a, const Colour& b, double share) {
   Colour result;
   for (std::size_t i = 0; i < 3; ++i) result[i] = a[i] + share * (b[i] - a[i]);
   return result;
-}
-
-/// A hue circle of nearly even lightness (a cosine for each of red, green and blue, a third of a turn apart).
-Colour hue(double turn) {
-  Colour result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    result[i] = 0.55 + 0.40 * std::cos(2.0 * std::numbers::pi * (turn - static_cast<double>(i) / 3.0));
-  }
-  return result;
-}
-
-constexpr Colour kStill{0.55, 0.55, 0.55};
-
-Colour move_colour(Offset move, int radius) {
-  const double length = std::hypot(move.x, move.y);
-  if (length == 0.0) return kStill;
-  const double turn = std::atan2(move.y, move.x) / (2.0 * std::numbers::pi);
-  return mixed(kStill, hue(turn), std::min(1.0, 0.25 + 0.75 * length / radius));
 }
 
 double smooth(double low, double high, double value) {
@@ -89,14 +84,19 @@ Image spectrum_image(const PowerSpectrum& power, int side) {
 }
 
 Image made_square(const Image& image) {
-  const int times = std::max(1, image.size.width / std::max(1, image.size.height));
+  const int down = std::max(1, image.size.width / std::max(1, image.size.height));
+  const int across = std::max(1, image.size.height / std::max(1, image.size.width));
   Image result = image;
-  result.size.height *= times;
+  result.size = {image.size.width * across, image.size.height * down};
   result.samples.clear();
-  const auto row_bytes = static_cast<std::ptrdiff_t>(image.samples.size()) / image.size.height;
-  for (std::ptrdiff_t y = 0; y < image.size.height; ++y) {
-    const auto row = image.samples.begin() + y * row_bytes;
-    for (int i = 0; i < times; ++i) result.samples.insert(result.samples.end(), row, row + row_bytes);
+  const auto pixel_bytes = static_cast<std::ptrdiff_t>(image.samples.size()) /
+                           (std::int64_t{image.size.width} * image.size.height);
+  for (int y = 0; y < result.size.height; ++y) {
+    for (int x = 0; x < result.size.width; ++x) {
+      const auto at =
+          image.samples.begin() + (std::int64_t{y / down} * image.size.width + x / across) * pixel_bytes;
+      result.samples.insert(result.samples.end(), at, at + pixel_bytes);
+    }
   }
   return result;
 }
@@ -110,17 +110,21 @@ Image signed_image(const Grid<double>& values, double full) {
 }
 
 Image moves_image(const Grid<Offset>& moves, Offset motion, int radius) {
-  return colour_image(moves.size(), [&](int x, int y) {
+  return palette_image(moves.size(), [&](int x, int y) {
     const Offset move = moves(x, y);
     return move_colour({move.x - motion.x, move.y - motion.y}, radius);
   });
 }
 
-Image moves_legend(int radius) {
-  const int side = 2 * radius + 1;
-  return colour_image({side, side}, [&](int x, int y) {
-    return move_colour({x - radius, y - radius}, radius);
-  });
+Image moves_legend(int side) {
+  // The page shows through round the disc, whatever its colour.
+  const Grid<Rgb8> disc = move_disc(side, {});
+  Image image{.size = {side, side}, .channels = 4, .type = SampleType::u8, .samples = {}};
+  for (const Rgb8& c : disc) {
+    const std::uint8_t opaque = c == Rgb8{} ? 0 : 255;
+    for (const std::uint8_t part : {c.red, c.green, c.blue, opaque}) image.samples.push_back(std::byte{part});
+  }
+  return image;
 }
 
 Grid<double> photograph(Extent size) {

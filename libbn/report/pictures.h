@@ -18,16 +18,16 @@ Grid<std::uint8_t> window(const Grid<std::uint8_t>& grey, int x, int y, Extent s
 /// side.
 Image spectrum_image(const PowerSpectrum& power, int side);
 
-/// `image` with every row so often, the least whole number that makes it about as high as wide.
+/// `image` with every row, or every column, so often that it is about as high as wide.
 Image made_square(const Image& image);
 
 /// Blue below zero, orange above, grey at zero; full colour at `full` and beyond.
 Image signed_image(const Grid<double>& values, double full);
 
-/// Direction as hue, length as strength: grey stays, `radius` pixels and more is full colour.
+/// Direction as hue, length as strength (bn/palette.h): grey stays, `radius` pixels and more is full colour.
 Image moves_image(const Grid<Offset>& moves, Offset motion, int radius);
-/// The legend of the above: the colour of every move within `radius`.
-Image moves_legend(int radius);
+/// The legend of the above: a disc of all directions, `side` pixels wide.
+Image moves_legend(int side);
 
 /// A picture with what photographs have: smooth shades, an edge, a highlight, deep shadow. Linear light,
 /// 0..1.

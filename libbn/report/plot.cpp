@@ -78,6 +78,8 @@ int line_style(const Curve& curve) {
       return 1;
     case Role::reference:
       return 2;
+    case Role::others:
+      return 9;
     case Role::texture:
       break;
   }
@@ -204,8 +206,9 @@ Drawing draw(const std::vector<Plot>& plots, std::stop_token stop) {
     const PlotSize size = size_of(plots[drawing.svg.size()]);
     const auto tag_end = rest.find('>', begin);
     drawing.svg.push_back(fmt::format(
-        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"plot\">\n{}</svg>\n",
-        size.width, size.height, inlined(rest.substr(tag_end + 1, end - tag_end - 1))));
+        "<svg class=\"chart{}\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"plot\">\n{}</svg>\n",
+        size.width == kHalfOfThePage.width ? " half" : "", size.width, size.height,
+        inlined(rest.substr(tag_end + 1, end - tag_end - 1))));
     rest.remove_prefix(end + kEnd.size());
   }
   if (drawing.svg.size() != plots.size()) {

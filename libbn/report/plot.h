@@ -22,7 +22,7 @@ enum class PlotStyle {
 };
 
 /// What a curve stands for decides its colour and line; see scripts/plots/common.gnuplot.
-enum class Role { white, reference, texture };
+enum class Role { white, reference, texture, others };
 
 struct Curve {
   std::string name;

@@ -31,6 +31,7 @@ std::string plot_figure(const Plot& plot, std::size_t index, std::string_view ti
     key += fmt::format("<li><i class=\"line {}\" style=\"--c:var(--plot-{})\"></i>{}</li>", kind,
                        curve.role == Role::white       ? 1
                        : curve.role == Role::reference ? 2
+                       : curve.role == Role::others    ? 9
                                                        : 3 + curve.colour % kCurveColours,
                        escaped(curve.name));
   }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <system_error>
 
@@ -65,25 +66,46 @@ std::string file_name_for(const std::string& name, std::set<std::string>& taken)
   return result;
 }
 
-/// All textures' curves over each other, as many as there are colours.
+/// All textures' curves over each other. Six can be told apart; of more, the five of the lowest grades have
+/// colours of their own and the others are one pale band of lines.
 void add_common_plots(report::Page& page, const report::Reference& reference) {
   page.common_power = report::power_plot("compare-power", reference);
   page.common_anisotropy = report::anisotropy_plot("compare-anisotropy", reference);
   page.common_anisotropy.wide = true;
-  int colour = 0;
+  std::vector<const report::Section*> shown;
   for (const report::Section& section : page.sections) {
-    if (section.card.empty()) continue;
-    if (colour == report::kCurveColours) {
-      page.notes.push_back(
-          fmt::format("The common plots show the first {} textures.", report::kCurveColours));
-      break;
+    if (!section.card.empty()) shown.push_back(&section);
+  }
+  const bool many = shown.size() > report::kCurveColours;
+  std::vector<const report::Section*> named = shown;
+  if (many) {
+    std::stable_sort(named.begin(), named.end(), [](auto* a, auto* b) {
+      return (std::isnan(a->grade) ? -1.0 : a->grade) < (std::isnan(b->grade) ? -1.0 : b->grade);
+    });
+    named.resize(report::kCurveColours - 1);
+    page.common_caption = fmt::format(" In colour the {} of the lowest grades, in pale violet the other {}.",
+                                      named.size(), shown.size() - named.size());
+  }
+  for (const auto& [which, plot] :
+       {std::pair(0, &page.common_power), std::pair(1, &page.common_anisotropy)}) {
+    if (many) {
+      report::Curve others{
+          fmt::format("{} others", shown.size() - named.size()), report::Role::others, 0, {}, {}};
+      for (const report::Section* section : shown) {
+        if (std::find(named.begin(), named.end(), section) != named.end()) continue;
+        const report::Curve& curve = section->plots[static_cast<std::size_t>(which)].curves.back();
+        others.x.insert(others.x.end(), curve.x.begin(), curve.x.end());
+        others.y.insert(others.y.end(), curve.y.begin(), curve.y.end());
+        others.x.push_back(curve.x.empty() ? 0.0 : curve.x.back());  // a gap between two textures
+        others.y.push_back(std::nan(""));
+      }
+      plot->curves.push_back(std::move(others));
     }
-    for (const auto& [from, to] : {std::pair(&section.plots[0], &page.common_power),
-                                   std::pair(&section.plots[1], &page.common_anisotropy)}) {
-      to->curves.push_back(from->curves.back());
-      to->curves.back().colour = colour;
+    int colour = 0;
+    for (const report::Section* section : named) {
+      plot->curves.push_back(section->plots[static_cast<std::size_t>(which)].curves.back());
+      plot->curves.back().colour = colour++;
     }
-    ++colour;
   }
 }
 
@@ -141,6 +163,7 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
   for (const report::Section& section : page.sections) {
     plots.insert(plots.end(), section.plots.begin(), section.plots.end());
     summary.failed += section.failed;
+    summary.weak += section.weak;
     summary.not_judged += section.not_judged;
   }
   if (options.compare) {

@@ -16,7 +16,7 @@ namespace bn::report {
 namespace {
 
 constexpr std::array<int, 3> kRepeats{1, 8, 64};
-constexpr int kSpectrumShown = 288;  ///< pixels a side: four pictures fill a row
+constexpr int kSpectrumShown = 256;  ///< pixels a side: four pictures fill a row
 
 RetargetOptions options_of(const Metadata& metadata, Offset motion) {
   RetargetOptions options;
@@ -146,9 +146,10 @@ std::string heat_map(const RetargetSet& set) {
           high > low ? static_cast<double>(record.energy - low) / static_cast<double>(high - low) : 0.0;
       rows += fmt::format(
           "<td style=\"--heat:{:.0f}%\" title=\"motion {}, {}: energy {}, bound {}\">{}{}</td>",
-          100.0 * share, x, y, record.energy, record.lower_bound, record.energy,
-          record.energy == record.lower_bound ? ""
-                                              : fmt::format("<br><small>{}</small>", record.lower_bound));
+          100.0 * share, x, y, whole(record.energy), whole(record.lower_bound), whole(record.energy),
+          record.energy == record.lower_bound
+              ? ""
+              : fmt::format("<br><small>{}</small>", whole(record.lower_bound)));
     }
     rows += "</tr>\n";
   }
@@ -172,126 +173,126 @@ std::string energies_csv(const RetargetSet& set) {
 
 std::string percent(double share) { return fmt::format("{:.2f} %", 100.0 * share); }
 
-}  // namespace
+double share_of_start(const TileRecord& record) {
+  return record.start_energy > 0
+             ? static_cast<double>(record.energy) / static_cast<double>(record.start_energy)
+             : std::nan("");
+}
 
-Section retarget_section(const RetargetSet& set, const Reference& reference, const std::string& file_name,
-                         const Execution& execution) {
-  const RetargetSet::Tile& tile = main_tile(set);
-  const Metadata& metadata = set.metadata;
-  const Audit checked = audit(set);
-  const auto count = static_cast<int>(set.tiles.size());
-  const Extent size = tile.move.size();
-  const Shape shape{size.width, size.height};
-  const bool sound = checked.permutations == count && (!checked.recomputed || checked.energies == count);
-
+/// The section while it is put together.
+struct Draft {
   Section section;
-  section.failed = !sound;
-  const std::string verdict = !sound                     ? badge(false, "not as recorded")
-                              : checked.optimal == count ? badge(true, "proven optimal")
-                                                         : badge(true, "as recorded");
-  std::string& html = section.html;
-  html += fmt::format("<h2>{} {}</h2>\n", escaped(set.name), verdict);
-  std::string files;
-  for (const std::string& name : set.files) files += (files.empty() ? "" : ", ") + escaped(name);
-  html += fmt::format("<p class=\"about\">{} tile{} of {} × {} pixels, {}{}.</p>\n", count,
-                      count == 1 ? "" : "s", size.width, size.height, files,
-                      set.seconds ? fmt::format(", made in {} s", number(*set.seconds)) : "");
-
-  // --- pictures ---
-  const double start = static_cast<double>(tile.record.start_energy);
   std::string gallery, dithers, main_plot, plots;
-  const auto add_plot = [&](Plot plot, std::string_view title, const std::string& caption) {
+
+  std::string add_plot(Plot plot, std::string_view title, const std::string& caption) {
     section.plots.push_back(std::move(plot));
     return plot_figure(section.plots.back(), section.plots.size() - 1, title, caption);
-  };
+  }
+};
+
+std::string spectrum_figure(const PowerSpectrum& power, std::string title, std::string caption) {
+  const Image picture = spectrum_image(power, kSpectrumShown);
+  return figure({.image = picture,
+                 .scale = scale_for(picture.size.width, 256),
+                 .title = std::move(title),
+                 .caption = std::move(caption)});
+}
+
+/// The moves as hues, their legend, how long they are.
+void add_moves(const RetargetSet& set, const RetargetSet::Tile& tile, const std::string& file_name,
+               Draft& draft) {
+  const int radius = *set.metadata.facts.get<int>("radius");
   double mean_length = 0.0;
   for (const Offset r : tile.move) {
     mean_length += std::hypot(r.x - tile.record.motion.x, r.y - tile.record.motion.y);
   }
   mean_length /= static_cast<double>(tile.move.count());
-  gallery += figure({.image = moves_image(tile.move, tile.record.motion, *metadata.facts.get<int>("radius")),
-                     .scale = scale_for(size.width, 256),
-                     .title = "The moves.",
-                     .caption = fmt::format("Direction as hue, length as strength; on average {} pixels.",
-                                            number(mean_length))});
-  const Image legend = moves_legend(*metadata.facts.get<int>("radius"));
-  gallery += figure({.image = legend,
-                     .scale = scale_for(legend.size.width, 128),
-                     .title = "Their legend.",
-                     .caption = fmt::format("The colour of each move within {} pixels; the middle stays.",
-                                            *metadata.facts.get<int>("radius"))});
-  plots += add_plot(moves_plot(set, tile, file_name + "-moves"), "Lengths of the moves",
-                    fmt::format("Share of the pixels, by {} length, motion taken out.",
-                                metadata.facts.get<std::string>("reach") == "euclidean" ? "Euclidean" : "Chebyshev"));
+  draft.gallery +=
+      figure({.image = moves_image(tile.move, tile.record.motion, radius),
+              .scale = scale_for(tile.move.width(), 256),
+              .title = "The moves.",
+              .caption = fmt::format("Direction as hue, length as strength; on average {} pixels.",
+                                     number(mean_length))});
+  draft.gallery +=
+      figure({.image = moves_legend(160),
+              .scale = 1,
+              .title = "Their legend.",
+              .caption = fmt::format("A move to the right is pink, down blue, left green, up yellow; "
+                                     "grey stays. The rim is {} pixels.",
+                                     radius)});
+  draft.plots += draft.add_plot(moves_plot(set, tile, file_name + "-moves"), "Lengths of the moves",
+                                fmt::format("Share of the pixels, by {} length, motion taken out.",
+                                            set.metadata.facts.get<std::string>("reach") == "euclidean" ? "Euclidean" : "Chebyshev"));
+}
 
-  if (set.levels) {
-    const Grid<double> residual = residual_of(*set.levels, tile.move, *metadata.facts.get<Offset>("step"));
-    double largest = 0.0, sum = 0.0;
-    for (const double v : residual) {
-      largest = std::max(largest, std::abs(v));
-      sum += std::abs(v);
-    }
-    gallery += figure(
-        {.image = signed_image(residual, largest),
-         .scale = scale_for(size.width, 256),
-         .title = "The residual.",
-         .caption = fmt::format("Level left minus level reached; full colour is {}, the mean size {} levels.",
-                                number(largest), number(sum / static_cast<double>(residual.count())))});
-    const std::vector<double> values(residual.begin(), residual.end());
-    const PowerSpectrum residual_power = power_spectrum(values, shape, execution);
-    const auto spectrum_of = [](const PowerSpectrum& power, std::string title, std::string caption) {
-      const Image picture = spectrum_image(power, kSpectrumShown);
-      return figure({.image = picture,
-                     .scale = scale_for(picture.size.width, 256),
-                     .title = std::move(title),
-                     .caption = std::move(caption)});
-    };
-    gallery +=
-        spectrum_of(residual_power, "Its spectrum.", "Decibels, black −50, white +12.5, white noise 0.");
-    const RadialCurve residual_curve = radial_power(residual_power);
-    Plot residual_plot{
-        PlotStyle::residual, file_name + "-residual", "frequency_cycles_per_pixel", "power", {}};
-    residual_plot.curves.push_back({"white noise", Role::white, 0, {0.0, 0.7071}, {1.0, 1.0}});
-    residual_plot.curves.push_back(
-        {"residual", Role::texture, 0, residual_curve.frequency, residual_curve.power});
-    plots += add_plot(std::move(residual_plot), "Power of the residual",
-                      fmt::format("What a retarget gets wrong; {} in 0 &lt; <i>f</i> ≤ .0625.",
-                                  number(band_power(residual_power).mean[0])));
-
-    Plot dither = power_plot(file_name + "-dither", reference);
-    const std::vector<double> mask(set.levels->begin(), set.levels->end());
-    auto screens = repeated(*set.levels, tile.move, *metadata.facts.get<Offset>("step"));
-    screens.insert(screens.begin(), mask);
-    for (std::size_t i = 0; i < screens.size(); ++i) {
-      const PowerSpectrum power = analyse(screens[i], shape, 0.0, 1.0, execution).power;
-      const RadialCurve curve = radial_power(power);
-      const int repeats = i == 0 ? 0 : kRepeats[i - 1];
-      dither.curves.push_back({i == 0 ? "the mask" : fmt::format("after {}", repeats), Role::texture,
-                               static_cast<int>(i), curve.frequency, curve.power});
-      dithers +=
-          spectrum_of(power, i == 0 ? "The dither." : fmt::format("After {}.", repeats),
-                      i == 0 ? fmt::format("Its spectrum before any retarget; lowest band {}.",
-                                           number(band_power(power).mean[0]))
-                             : fmt::format("Its spectrum {} retarget{} later; lowest band {}.", repeats,
-                                           repeats == 1 ? "" : "s", number(band_power(power).mean[0])));
-    }
-    main_plot = add_plot(std::move(dither), "The dither after retargets in a row",
-                         "Radial power, without a new sort in between.");
+/// What a retarget gets wrong, and its spectrum.
+void add_residual(const RetargetSet& set, const RetargetSet::Tile& tile, const std::string& file_name,
+                  const Execution& execution, Draft& draft) {
+  const Grid<double> residual = residual_of(*set.levels, tile.move, *set.metadata.facts.get<Offset>("step"));
+  double largest = 0.0, sum = 0.0;
+  for (const double v : residual) {
+    largest = std::max(largest, std::abs(v));
+    sum += std::abs(v);
   }
-  html += "<div class=\"gallery\">" + gallery + "</div>\n";
-  if (!dithers.empty()) html += "<div class=\"gallery\">" + dithers + "</div>\n";
+  draft.gallery +=
+      figure({.image = signed_image(residual, largest),
+              .scale = scale_for(residual.width(), 256),
+              .title = "The residual.",
+              .caption = fmt::format(
+                  "Level left minus level reached: blue below, orange above; full colour is {}, the mean "
+                  "size {} levels.",
+                  number(largest), number(sum / static_cast<double>(residual.count())))});
+  const std::vector<double> values(residual.begin(), residual.end());
+  const PowerSpectrum power = power_spectrum(values, residual.shape(), execution);
+  draft.gallery +=
+      spectrum_figure(power, "Its spectrum.", "Decibels, black −50, white +12.5, white noise 0.");
+  const RadialCurve curve = radial_power(power);
+  Plot plot{PlotStyle::residual, file_name + "-residual", "frequency_cycles_per_pixel", "power", {}};
+  plot.curves.push_back({"white noise", Role::white, 0, {0.0, 0.7071}, {1.0, 1.0}});
+  plot.curves.push_back({"residual", Role::texture, 0, curve.frequency, curve.power});
+  draft.plots += draft.add_plot(std::move(plot), "Power of the residual",
+                                fmt::format("What a retarget gets wrong; {} in 0 &lt; <i>f</i> ≤ 0.0625.",
+                                            number(band_power(power).mean[0])));
+}
 
-  // --- facts ---
+/// What is left of the dither after retargets in a row.
+void add_dithers(const RetargetSet& set, const RetargetSet::Tile& tile, const Reference& reference,
+                 const std::string& file_name, const Execution& execution, Draft& draft) {
+  Plot plot = power_plot(file_name + "-dither", reference);
+  const std::vector<double> mask(set.levels->begin(), set.levels->end());
+  auto screens = repeated(*set.levels, tile.move, *set.metadata.facts.get<Offset>("step"));
+  screens.insert(screens.begin(), mask);
+  for (std::size_t i = 0; i < screens.size(); ++i) {
+    const PowerSpectrum power = analyse(screens[i], tile.move.shape(), 0.0, 1.0, execution).power;
+    const RadialCurve curve = radial_power(power);
+    const int repeats = i == 0 ? 0 : kRepeats[i - 1];
+    const std::string lowest = number(band_power(power).mean[0]);
+    plot.curves.push_back({i == 0 ? "the mask" : fmt::format("after {}", repeats), Role::texture,
+                           static_cast<int>(i), curve.frequency, curve.power});
+    draft.dithers +=
+        spectrum_figure(power, i == 0 ? "The dither." : fmt::format("After {}.", repeats),
+                        i == 0 ? fmt::format("Its spectrum before any retarget; lowest band {}.", lowest)
+                               : fmt::format("Its spectrum {} retarget{} later; lowest band {}.", repeats,
+                                             repeats == 1 ? "" : "s", lowest));
+  }
+  draft.main_plot = draft.add_plot(std::move(plot), "The dither after retargets in a row",
+                                   "Radial power, without a new sort in between.");
+}
+
+std::string facts_table(const RetargetSet& set, const RetargetSet::Tile& tile, const Audit& checked) {
+  const Metadata& metadata = set.metadata;
   const TileRecord& record = tile.record;
+  const auto count = static_cast<int>(set.tiles.size());
   const double gap = record.lower_bound > 0 ? static_cast<double>(record.energy - record.lower_bound) /
                                                   static_cast<double>(record.lower_bound)
                                             : 0.0;
+  const double share = share_of_start(record);
   const auto of_all = [&](int part) { return fmt::format("{} of {} {}", part, count, badge(part == count)); };
   std::string facts;
   facts +=
       fact("mask", set.mask_name.empty() ? escaped(metadata.facts.get<std::string>("source").value_or("–")) : escaped(set.mask_name));
   facts += fact("step, orbit", fmt::format("({}, {}), {} frames", metadata.facts.get<Offset>("step")->x, metadata.facts.get<Offset>("step")->y,
-                                           orbit_length(size, *metadata.facts.get<Offset>("step"))));
+                                           orbit_length(tile.move.size(), *metadata.facts.get<Offset>("step"))));
   facts +=
       fact("radius, reach, metric, border",
            fmt::format("{} px, {}, {}, {}", *metadata.facts.get<int>("radius"), escaped(metadata.facts.get<std::string>("reach").value_or("chebyshev")),
@@ -299,8 +300,7 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
                        metadata.facts.get<bool>("wrap").value_or(true) ? "wraps" : "closed"));
   facts += fact("energy of the tile shown",
                 fmt::format("{} ({} of the {} without moves)", whole(record.energy),
-                            start > 0.0 ? percent(static_cast<double>(record.energy) / start) : "–",
-                            whole(record.start_energy)));
+                            std::isnan(share) ? "–" : percent(share), whole(record.start_energy)));
   facts += fact("proven lower bound", fmt::format("{} (gap {})", whole(record.lower_bound), percent(gap)));
   facts += fact("proven optimal", fmt::format("{} of {}", checked.optimal, count));
   facts += fact("permutations within reach", of_all(checked.permutations));
@@ -308,21 +308,65 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
                 checked.recomputed ? of_all(checked.energies) : "not recomputed: the mask is missing");
   if (set.seconds) facts += fact("time of the job", number(*set.seconds) + " s");
   if (!checked.fault.empty()) facts += fact("fault", escaped(checked.fault));
-  html += fmt::format(
-      "<div class=\"top\"><div class=\"wide\"><table class=\"facts\"><caption><b>Figures.</b> Everything but "
-      "the "
-      "bounds and the time is "
-      "recomputed.</caption><tbody>{}</tbody></table></div>\n<div>{}</div></div>\n<div "
-      "class=\"plots\">{}{}</div>\n",
-      facts, main_plot, heat_map(set), plots);
-  if (!metadata.recipe.empty()) {
-    html +=
-        fmt::format("<details><summary>Recipe</summary><pre>{}</pre></details>\n", escaped(metadata.recipe));
+  return fmt::format(
+      "<div class=\"wide\"><table class=\"facts\"><caption><b>Figures.</b> Everything but the bounds and the "
+      "time is "
+      "recomputed.</caption><tbody>{}</tbody></table></div>\n",
+      facts);
+}
+
+std::vector<Cell> overview_of(const RetargetSet& set, const TileRecord& record, const std::string& verdict,
+                              bool sound) {
+  const double share = share_of_start(record), none = 1e300;
+  const Extent size = set.tiles.front().move.size();
+  return {{verdict, sound ? record.energy == record.lower_bound ? 0.0 : 1.0 : 2.0},
+          {whole(record.energy), static_cast<double>(record.energy)},
+          {std::isnan(share) ? "–" : percent(share), std::isnan(share) ? none : share},
+          {whole(record.lower_bound), static_cast<double>(record.lower_bound)},
+          {whole(std::ssize(set.tiles)), static_cast<double>(set.tiles.size())},
+          {set.seconds ? number(*set.seconds) : "–", set.seconds.value_or(none)},
+          {fmt::format("{} × {}", size.width, size.height), static_cast<double>(size.area())}};
+}
+
+}  // namespace
+
+Section retarget_section(const RetargetSet& set, const Reference& reference, const std::string& file_name,
+                         const Execution& execution) {
+  const RetargetSet::Tile& tile = main_tile(set);
+  const Audit checked = audit(set);
+  const auto count = static_cast<int>(set.tiles.size());
+  const Extent size = tile.move.size();
+  const bool sound = checked.permutations == count && (!checked.recomputed || checked.energies == count);
+  const std::string verdict = !sound                     ? badge(false, "not as recorded")
+                              : checked.optimal == count ? badge(true, "proven optimal")
+                                                         : badge(true, "as recorded");
+  Draft draft;
+  add_moves(set, tile, file_name, draft);
+  if (set.levels) {
+    add_residual(set, tile, file_name, execution, draft);
+    add_dithers(set, tile, reference, file_name, execution, draft);
+  }
+
+  Section& section = draft.section;
+  section.group = Group::retarget_set;
+  section.failed = !sound;
+  std::string& html = section.html;
+  html += fmt::format("<h2>{} {}</h2>\n", escaped(set.name), verdict);
+  std::string files;
+  for (const std::string& name : set.files) files += (files.empty() ? "" : ", ") + escaped(name);
+  html += fmt::format("<p class=\"about\">{} tile{} of {} × {} pixels, {}{}.</p>\n", count,
+                      count == 1 ? "" : "s", size.width, size.height, files,
+                      set.seconds ? fmt::format(", made in {} s", number(*set.seconds)) : "");
+  html += "<div class=\"gallery\">" + draft.gallery + "</div>\n";
+  if (!draft.dithers.empty()) html += "<div class=\"gallery\">" + draft.dithers + "</div>\n";
+  html += fmt::format("<div class=\"top\">{}<div>{}</div></div>\n<div class=\"plots\">{}{}</div>\n",
+                      facts_table(set, tile, checked), draft.main_plot, heat_map(set), draft.plots);
+  if (!set.metadata.recipe.empty()) {
+    html += fmt::format("<details><summary>Recipe</summary><pre>{}</pre></details>\n",
+                        escaped(set.metadata.recipe));
   }
   section.tables.emplace_back(file_name + "-energies", energies_csv(set));
-  section.summary = fmt::format(
-      "<td>{} × {}</td><td>{}</td><td class=\"extra\">energy {}</td><td class=\"extra\">{}</td>", size.width,
-      size.height, verdict, whole(record.energy), set.seconds ? number(*set.seconds) + " s" : "");
+  section.overview = overview_of(set, tile.record, verdict, sound);
   return section;
 }
 

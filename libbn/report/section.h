@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -11,14 +12,29 @@
 
 namespace bn::report {
 
+/// A cell of a table that can be sorted.
+struct Cell {
+  std::string html;
+  double order = 0.0;  ///< less comes first
+};
+
+/// What the sections of a page are; each group has a table of its own at the top.
+enum class Group { texture, retarget_set, other };
+/// Headings of the group's table, behind the name; HTML.
+std::vector<std::string_view> overview_columns(Group group);
+
 struct Section {
+  Group group = Group::other;
   std::string html;  ///< holds plot_slot(i) where plots[i] belongs
   std::vector<Plot> plots;
   std::vector<std::pair<std::string, std::string>>
-      tables;               ///< CSV that is no plot: file name without extension, text
-  std::string summary;      ///< cells of its row in the table at the top
+      tables;  ///< CSV that is no plot: file name without extension, text
+  /// Its row in the table of its group at the top, under overview_columns().
+  std::vector<Cell> overview;
   std::string card;         ///< for --compare: the pictures and the main figures
+  double grade = 0.0;       ///< of a texture
   bool failed = false;      ///< misses a threshold
+  bool weak = false;        ///< passes, far from the best known
   bool not_judged = false;  ///< a picture that is no mask
 };
 

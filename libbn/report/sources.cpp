@@ -15,6 +15,7 @@
 #include <tuple>
 
 #include "bn/error.h"
+#include "bn/judgement.h"
 #include "bn/retarget.h"
 #include "report/candidates.h"
 
@@ -36,6 +37,14 @@ void check_finite(const Texture& texture) {
                    .remedy = ""});
     }
   }
+}
+
+/// Three equal channels; a fourth like them is a mask again, not an alpha.
+bool is_grey_as_colour(const Image& image) {
+  if (image.channels < 3) return false;
+  const auto channel = [&](int c) { return samples_of_channel(image, c).value; };
+  const std::vector<double> first = channel(0);
+  return channel(1) == first && channel(2) == first && (image.channels != 4 || channel(3) != first);
 }
 
 class Collector {
@@ -76,9 +85,12 @@ class Collector {
   }
 
   void add_volume(const std::string& name, const std::vector<Candidate>& slices) {
-    Texture volume{.name = name, .shape = {}, .samples = {}, .metadata = {}, .also = {}, .seconds = {}};
+    Texture volume;
+    volume.name = name;
+    std::string at = name;
     try {
       for (const Candidate& slice : slices) {
+        at = slice.name;
         throw_if_stopped(execution_);
         const FileContent content = read_image(slice.path, execution_);
         ++collection_.readable;
@@ -102,7 +114,7 @@ class Collector {
       }
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
-      return note(name, error.info().what);
+      return note(at, fmt::format("{}, so the volume {} is left out", error.info().what, name));
     }
     if (volume.shape.depth < 2) return note(name, "a volume needs at least two slices");
     try {
@@ -173,29 +185,64 @@ class Collector {
       const auto [place, is_new] = mask_of_job_.try_emplace(candidate.job.job, collection_.textures.size());
       if (!is_new) return add_encoding(place->second, candidate.name);
     }
+    const bool grey = is_grey_as_colour(content.image);
+    if (grey) note(candidate.name, "channels 0, 1 and 2 are equal, grey stored as colour, so one is shown");
     std::vector<Texture> channels;
+    std::vector<int> numbers;
     for (int c = 0; c < std::min(content.image.channels, kMostChannels); ++c) {
-      Texture texture{.name = candidate.name,
-                      .shape = {content.image.size.width, content.image.size.height},
-                      .samples = samples_of_channel(content.image, c),
-                      .type = content.image.type,
-                      .metadata = content.metadata,
-                      .also = {},
-                      .seconds = candidate.job.seconds};
+      Texture texture;
+      texture.name = candidate.name;
+      texture.shape = content.image.size;
+      texture.samples = samples_of_channel(content.image, c);
+      texture.type = content.image.type;
+      texture.metadata = content.metadata;
+      texture.seconds = candidate.job.seconds;
       check_finite(texture);
       const std::vector<double>& values = texture.samples.value;
-      // Opaque alpha, or grey that is stored as colour.
       const bool constant =
           std::all_of(values.begin(), values.end(), [&](double value) { return value == values[0]; });
-      const bool repeated = std::any_of(channels.begin(), channels.end(),
-                                        [&](const Texture& other) { return other.samples.value == values; });
-      if (c > 0 && (constant || repeated)) continue;
+      if (c > 0 && constant) {
+        const bool last = c + 1 == content.image.channels && (c == 1 || c == 3);
+        note(candidate.name, fmt::format("channel {} is constant (every value is {}), so it is not shown{}",
+                                         c, values[0], last ? "; an opaque alpha channel is" : ""));
+        continue;
+      }
+      if (grey && (c == 1 || c == 2)) continue;
       if (content.image.channels > 1) texture.name += fmt::format(", channel {}", c);
+      compare_channels(channels, numbers, texture);
       channels.push_back(std::move(texture));
+      numbers.push_back(c);
+    }
+    if (content.image.channels > kMostChannels) {
+      note(candidate.name,
+           fmt::format("it has {} channels, the first {} are shown", content.image.channels, kMostChannels));
     }
     if (channels.size() == 1) channels[0].name = candidate.name;
     known_[hash] = collection_.textures.size();
     for (Texture& texture : channels) keep(std::move(texture));
+  }
+
+  /// What `texture` has in common with the channels before it.
+  void compare_channels(const std::vector<Texture>& channels, const std::vector<int>& numbers,
+                        Texture& texture) {
+    double largest = 0.0, chance = 0.0;
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const CrossSpectrum cross =
+          cross_spectrum(channels[i].samples.value, texture.samples.value, texture.shape, execution_);
+      if (!cross.can_tell()) return;
+      const std::string relation = relation_of(cross, fmt::format("channel {}", numbers[i]));
+      if (!relation.empty()) {
+        texture.relations.push_back(relation);
+        return;  // the first says enough
+      }
+      largest = std::max(largest, std::abs(cross.peak_correlation));
+      chance = std::max(chance, cross.limit);
+    }
+    if (channels.empty()) return;
+    texture.independence = fmt::format(
+        "Independent of the channels before it: correlation at most {:.3f} at any displacement (chance: "
+        "{:.3f}).",
+        largest, chance);
   }
 
   void add_moves(const Candidate& candidate, const FileContent& content) {
@@ -279,6 +326,15 @@ Collection collect(const ReportOptions& options, const Execution& execution) {
     }
   }
   if (options.volume && !named.empty()) {
+    // As bn spectrum takes them.
+    const auto given = named;
+    std::sort(named.begin(), named.end(),
+              [](const Candidate& a, const Candidate& b) { return natural_less(a.name, b.name); });
+    if (!std::equal(given.begin(), given.end(), named.begin(),
+                    [](const Candidate& a, const Candidate& b) { return a.name == b.name; })) {
+      collection.notes.push_back(
+          "The slices are taken in the order of their numbers, not in the order given.");
+    }
     collector.add_volume(fmt::format("{} and {} more", named[0].name, named.size() - 1), named);
   }
   collector.find_masks();

@@ -22,6 +22,10 @@ struct Texture {
   std::optional<Metadata> metadata;
   std::vector<std::string> also;  ///< other encodings of it
   std::optional<double> seconds;  ///< that its job took
+  /// What it has in common with earlier channels of its file: "is channel 0 moved by (5, 3)". It should be
+  /// nothing.
+  std::vector<std::string> relations;
+  std::string independence;  ///< a sentence that says so, for channels that are independent; else empty
 };
 
 /// The retarget tiles of one mask and one set of options, in scatter form, in the order of their motions by

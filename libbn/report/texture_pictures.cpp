@@ -12,12 +12,12 @@ namespace bn::report {
 namespace {
 
 constexpr int kMostShown = 512;      ///< pixels a side of the picture
-constexpr int kSpectrumShown = 288;  ///< of the spectrum: four pictures fill a row
+constexpr int kSpectrumShown = 256;  ///< of the spectrum: as large as the texture beside it
 constexpr int kShownWide = 256;      ///< page pixels, about
 constexpr int kTiled = 384;
 constexpr int kLevelSide = 64;
-constexpr Extent kPhotograph{288, 192};
-constexpr int kCorrelated = 16;  ///< distances of the autocorrelation
+constexpr Extent kPhotograph{288, 256};  ///< as high as the pictures beside it
+constexpr int kCorrelated = 16;          ///< distances of the autocorrelation
 constexpr int kSlices = 8;
 
 /// Slice `z` as grey.
@@ -125,12 +125,12 @@ std::string gallery(const TextureView& view, const Execution& execution) {
   return "<div class=\"gallery\">" + html + "</div>\n";
 }
 
-std::string tiling_and_levels(const TextureView& view, const Execution& execution) {
+std::string tiling(const TextureView& view) {
   const Grid<std::uint8_t> grey = grey_of(view.texture, 0);
   const int w = grey.width(), h = grey.height();
   const Extent tiled{std::min(3 * w, kTiled), std::min(3 * h, kTiled)};
   const bool whole = tiled.width == 3 * w && tiled.height == 3 * h;
-  const std::string tiling = figure(
+  return figure(
       {.image =
            grey_image(window(grey, whole ? 0 : w - tiled.width / 2, whole ? 0 : h - tiled.height / 2, tiled)),
        .scale = scale_for(tiled.width, kTiled),
@@ -139,27 +139,34 @@ std::string tiling_and_levels(const TextureView& view, const Execution& executio
                         : fmt::format(
                               "The {} × {} pixels where four copies meet; a toroidal texture shows no seams.",
                               tiled.width, tiled.height)});
+}
 
-  const Extent shown{std::min(w, kLevelSide), std::min(h, kLevelSide)};
-  const Shape flat{w, h};
-  std::string levels;
+std::string levels(const TextureView& view, const Execution& execution) {
+  const Shape flat{view.texture.shape.width, view.texture.shape.height};
+  const Extent shown{std::min(flat.width, kLevelSide), std::min(flat.height, kLevelSide)};
+  std::string html;
   for (int n = 1; n < 16; ++n) {
     const auto bits = thresholded(view.slice, n / 16.0, execution);
-    Grid<std::uint8_t> picture(grey.size());
+    Grid<std::uint8_t> picture(Extent{flat.width, flat.height});
     for (std::size_t i = 0; i < picture.count(); ++i) picture[i] = bits[i] > 0.0 ? 255 : 0;
+    html += "<div class=\"level\">" +
+            thumbnail(grey_image(window(picture, 0, 0, shown)), 1, "thresholded", fmt::format("{}/16", n));
+    // A picture without a point, or full of them, has no spectrum: nothing would be the best figure of all.
+    if (std::all_of(bits.begin(), bits.end(), [&](double bit) { return bit == bits[0]; })) {
+      html += bits[0] > 0.0 ? "<p class=\"none\">all set</p></div>" : "<p class=\"none\">no point</p></div>";
+      continue;
+    }
     const PowerSpectrum power = power_spectrum(bits, flat, execution);
-    levels += fmt::format(
-        "<div class=\"level\">{}{}</div>",
-        thumbnail(grey_image(window(picture, 0, 0, shown)), 1, "thresholded", fmt::format("{}/16", n)),
-        thumbnail(spectrum_image(power, kLevelSide), 1, "its spectrum", number(band_power(power).mean[0])));
+    html +=
+        thumbnail(spectrum_image(power, kLevelSide), 1, "its spectrum", number(band_power(power).mean[0])) +
+        "</div>";
   }
   return fmt::format(
-      "<div class=\"pair\">{}<div class=\"strip\"><h4>Thresholded at 1/16 … 15/16</h4><p>Points must keep "
-      "their "
-      "distance at every grey. Below each its spectrum, and its power in 0 &lt; <i>f</i> ≤ .0625 against "
-      "white "
-      "noise.</p><div class=\"levels\">{}</div></div></div>\n",
-      tiling, levels);
+      "<div class=\"strip\"><h4>Thresholded at 1/16 … 15/16</h4><p>Points must keep their distance at every "
+      "grey. "
+      "Below each its spectrum, and its power in 0 &lt; <i>f</i> ≤ 0.0625 against white noise.</p><div "
+      "class=\"levels\">{}</div></div>\n",
+      html);
 }
 
 std::string volume_strips(const TextureView& view, const Execution& execution) {
@@ -200,14 +207,21 @@ std::string volume_strips(const TextureView& view, const Execution& execution) {
 }
 
 std::string card_pictures(const TextureView& view) {
+  // Two in a card, of a third of the page or of a narrow one.
+  constexpr int kInCard = 150;
   const Grid<std::uint8_t> grey = grey_of(view.texture, 0);
-  const Extent shown{std::min(grey.width(), kShownWide), std::min(grey.height(), kShownWide)};
+  const Extent shown{std::min(grey.width(), kInCard), std::min(grey.height(), kInCard)};
+  const Image spectrum = spectrum_image(view.plane, kInCard);
   return "<div class=\"pictures\">" +
          figure({.image = grey_image(window(grey, 0, 0, shown)),
-                 .scale = scale_for(shown.width, kShownWide),
+                 .scale = scale_for(shown.width, kInCard),
                  .title = "",
                  .caption = size_of(view.texture.shape) + " pixels"}) +
-         spectrum_figure(spectrum_image(view.plane, kSpectrumShown), "", "Spectrum") + "</div>";
+         figure({.image = spectrum,
+                 .scale = scale_for(spectrum.size.width, kInCard),
+                 .title = "",
+                 .caption = "Spectrum"}) +
+         "</div>";
 }
 
 }  // namespace bn::report

@@ -22,8 +22,11 @@ struct TextureView {
 /// Texture, spectrum, autocorrelation, a picture dithered with it; for a volume the spectrum in x and time.
 std::string gallery(const TextureView& view, const Execution& execution);
 
-/// The tiling, and the texture thresholded at n/16 with spectra.
-std::string tiling_and_levels(const TextureView& view, const Execution& execution);
+/// Three by three copies.
+std::string tiling(const TextureView& view);
+
+/// The texture thresholded at n/16, with spectra.
+std::string levels(const TextureView& view, const Execution& execution);
 
 /// A volume's slices, and what its frames look like in the mean.
 std::string volume_strips(const TextureView& view, const Execution& execution);

@@ -58,6 +58,8 @@ std::string about(const Texture& texture) {
     if (texture.metadata->facts.get<std::int64_t>("seed")) line += fmt::format(", seed {}", *texture.metadata->facts.get<std::int64_t>("seed"));
   }
   if (texture.seconds) line += fmt::format(", made in {} s", number(*texture.seconds));
+  if (!texture.independence.empty())
+    line += ". " + texture.independence.substr(0, texture.independence.size() - 1);
   std::string html = fmt::format("<p class=\"about\">{}.", line);
   if (!texture.also.empty()) {
     std::string also;
@@ -73,15 +75,35 @@ std::string about(const Texture& texture) {
 }
 
 std::string card(const TextureView& view, const FiguresOfMerit& figures, const Verdict& verdict) {
-  const std::string facts =
-      fact(label_of("bands[0]"), number(figures.bands.mean[0])) +
-      fact(label_of("bands[1]"), number(figures.bands.mean[1])) +
-      fact(label_of("bands[3]"), number(figures.bands.mean[3])) +
-      fact("peak", fmt::format("{} at {}", number(figures.peak), frequency(figures.peak_frequency))) +
-      fact(label_of("anisotropy_db_mean"), number(figures.anisotropy_db_mean)) +
-      fact("left by a blur of 1.5 px, dB", number(figures.gauss_residual_db[1]));
+  std::string facts = fact("grade, of 100", score_text(verdict.judgement.grade.score));
+  for (std::size_t b = 0; b < figures.bands.mean.size(); ++b) {
+    facts += fact(label_of(fmt::format("bands[{}]", b)), number(figures.bands.mean[b]));
+  }
+  facts += fact("peak", fmt::format("{} at {}", number(figures.peak), frequency(figures.peak_frequency))) +
+           fact(label_of("anisotropy_db_mean"), number(figures.anisotropy_db_mean)) +
+           fact("left by a blur of 1.5 px, dB", number(figures.gauss_residual_db[1])) +
+           fact(label_of("histogram_max_deviation"), number(figures.histogram_max_deviation));
   return fmt::format("<h3>{} {}</h3>{}<table class=\"facts\"><tbody>{}</tbody></table>",
                      escaped(view.texture.name), verdict.badge_html, card_pictures(view), facts);
+}
+
+/// Figures that are undefined stand last, however the table is sorted.
+Cell cell(double value, std::string html, bool least_first = true) {
+  return {std::move(html), std::isnan(value) ? 1e300 : least_first ? value : -value};
+}
+
+std::vector<Cell> overview_of(const FiguresOfMerit& figures, const Verdict& verdict) {
+  const double score = verdict.judgement.grade.score;
+  std::vector<Cell> cells{{verdict.badge_html, static_cast<double>(verdict.outcome)},
+                          cell(score, score_text(score), false)};
+  for (std::size_t b = 0; b < 4; ++b) {
+    cells.push_back(cell(figures.bands.mean[b], number(figures.bands.mean[b])));
+  }
+  cells.push_back(cell(figures.peak, number(figures.peak)));
+  cells.push_back(cell(figures.anisotropy_db_mean, number(figures.anisotropy_db_mean)));
+  cells.push_back(cell(figures.histogram_max_deviation, number(figures.histogram_max_deviation)));
+  cells.push_back(cell(static_cast<double>(figures.shape.count()), size_of(figures.shape)));
+  return cells;
 }
 
 }  // namespace
@@ -94,15 +116,19 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
   const Analysis analysis = analyse(values, shape, low, std::max(high, low + 1e-300), execution);
   const PowerSpectrum plane = volume ? project(analysis.power, Projection::xy) : analysis.power;
   const FiguresOfMerit& figures = analysis.figures;
-  const Verdict verdict = verdict_of(texture, figures);
+  const Verdict verdict = verdict_of(texture, analysis, execution);
   const std::vector<double> r = autocorrelation(plane, execution);
   const std::vector<double> slice(values.begin(), values.begin() + flat.count());
   const TextureView view{texture, analysis.power, plane, r, slice};
 
   Section section;
+  section.group = Group::texture;
+  section.grade = verdict.judgement.grade.score;
+  section.weak = verdict.outcome == Verdict::Outcome::weak;
   section.failed = verdict.outcome == Verdict::Outcome::failed;
   section.not_judged = verdict.outcome == Verdict::Outcome::not_judged;
   const auto add_plot = [&](Plot plot, std::string_view title, const std::string& caption) {
+    plot.wide = true;  // two in a row
     section.plots.push_back(std::move(plot));
     return plot_figure(section.plots.back(), section.plots.size() - 1, title, caption);
   };
@@ -139,14 +165,15 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
         fmt::format("Of the pixels' sequences; {} at 0 cycles/frame.", number(figures.temporal_power_at_0)));
   }
 
-  section.html =
-      fmt::format("<h2>{} {}</h2>\n{}", escaped(texture.name), verdict.badge_html, about(texture)) +
-      gallery(view, execution) + tiling_and_levels(view, execution) +
-      (volume ? volume_strips(view, execution) : "") + "<div class=\"top\">" + merit_table(figures, verdict) +
-      "<div>" + main_plots + "</div></div>\n<div class=\"plots\">" + plots + "</div>\n";
-  section.summary = fmt::format(
-      "<td>{}</td><td>{}</td><td class=\"extra\">lowest band {}</td><td class=\"extra\">peak {}</td>",
-      size_of(shape), verdict.badge_html, number(figures.bands.mean[0]), number(figures.peak));
+  const std::string grade =
+      std::isnan(section.grade) ? "" : badge_of("plain", "grade " + score_text(section.grade));
+  section.html = fmt::format("<h2>{} {} {}</h2>\n{}{}", escaped(texture.name), verdict.badge_html, grade,
+                             reasons_html(verdict), about(texture)) +
+                 gallery(view, execution) + "<div class=\"pair\">" + tiling(view) +
+                 merit_table(figures, verdict) + "</div>\n" + levels(view, execution) +
+                 (volume ? volume_strips(view, execution) : "") + "<div class=\"plots two\">" + main_plots +
+                 plots + "</div>\n";
+  section.overview = overview_of(figures, verdict);
   section.card = card(view, figures, verdict);
   return section;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string_view>
 
@@ -12,80 +11,102 @@
 namespace bn::report {
 namespace {
 
-bool all_passed(const std::vector<JudgedFigure>& judged) {
-  return std::all_of(judged.begin(), judged.end(), [](const auto& f) { return f.passed; });
-}
-
-/// Whether the figures called `name...` passed; figures that are not judged do.
-bool passed(const std::vector<JudgedFigure>& judged, std::string_view name) {
-  return std::all_of(judged.begin(), judged.end(), [&](const auto& f) {
-    return f.passed || !std::string_view(f.figure).starts_with(name);
-  });
-}
-
 std::string allowed(double low, double high) {
   if (std::isinf(low) || low == 0.0) return std::isinf(high) ? "above 0" : "≤ " + number(high);
   return number(low) + " … " + number(high);
 }
 
+/// A picture that nobody calls a mask.
+bool is_a_picture(const Texture& texture, const Judgement& judgement) {
+  if (texture.shape.depth > 1 || (texture.metadata && texture.metadata->kind == "mask")) return false;
+  return std::any_of(judgement.findings.begin(), judgement.findings.end(),
+                     [](const Finding& finding) { return finding.cause == Cause::picture; });
+}
+
 }  // namespace
 
-Verdict verdict_of(const Texture& texture, const FiguresOfMerit& figures) {
-  const bool volume = figures.shape.depth > 1;
-  const char* name = volume ? "blue in space and time" : "blue noise";
-  const bool white = check(figures, Check::white).empty();
-  Verdict verdict{.judged = judge(figures, volume ? Check::stbn : Check::blue), .badge_html = {}};
-  if (all_passed(verdict.judged)) {
-    verdict.outcome = Verdict::Outcome::passed;
-    verdict.badge_html = badge(true, name);
+Verdict verdict_of(const Texture& texture, const Analysis& analysis, const Execution& execution) {
+  const auto& [values, low, high] = texture.samples;
+  Verdict verdict;
+  Judgement& judgement = verdict.judgement;
+  judgement = judge_texture({values, texture.shape, low, std::max(high, low + 1e-300)}, analysis,
+                            texture.shape.depth > 1 ? Check::stbn : Check::blue, execution);
+  verdict.reasons = judgement.reasons;
+  std::string words = judgement.headline;
+  if (is_a_picture(texture, judgement)) {
+    verdict.reasons = {"not judged: it does not say that it is a mask, and it " +
+                       judgement.findings.front().text};
+    judgement.judged.clear();
+    judgement.grade = {};
+    verdict.badge_html = badge_of("plain", "not judged");
     return verdict;
   }
-  const bool claims_to_be = volume || (texture.metadata && texture.metadata->kind == "mask");
-  const bool looks_so = white || passed(verdict.judged, "histogram") || passed(verdict.judged, "bands");
-  if (!claims_to_be && !looks_so) {
-    verdict.badge_html = "<span class=\"badge plain\">not judged</span>";
-    verdict.judged.clear();
-    return verdict;
+  for (const std::string& relation : texture.relations) verdict.reasons.push_back(relation);
+  if (!texture.relations.empty() && judgement.passed()) {
+    verdict.outcome = Verdict::Outcome::failed;
+    words = "not independent";
+  } else if (judgement.outcome == Judgement::Outcome::failed) {
+    verdict.outcome = Verdict::Outcome::failed;
+  } else if (judgement.outcome == Judgement::Outcome::weak) {
+    verdict.outcome = Verdict::Outcome::weak;
+  } else if (judgement.outcome == Judgement::Outcome::good) {
+    verdict.outcome = Verdict::Outcome::good;
   }
-  verdict.outcome = Verdict::Outcome::failed;
-  verdict.badge_html = badge(false, white ? "white noise" : fmt::format("not {}", name));
+  const std::string_view look = verdict.outcome == Verdict::Outcome::good     ? "pass"
+                                : verdict.outcome == Verdict::Outcome::weak   ? "weak"
+                                : verdict.outcome == Verdict::Outcome::failed ? "fail"
+                                                                              : "plain";
+  verdict.badge_html = badge_of(look, words);
   return verdict;
 }
 
+std::string score_text(double score) { return std::isnan(score) ? "–" : fmt::format("{:.0f}", score); }
+
 std::string label_of(const std::string& figure) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kLabels{{
-      {"bands[0]", "power, 0 &lt; <i>f</i> ≤ .0625"},
-      {"bands[1]", "power, .0625 &lt; <i>f</i> ≤ .125"},
-      {"bands[2]", "power, .125 &lt; <i>f</i> ≤ .1875"},
-      {"bands[3]", "power, .1875 &lt; <i>f</i> ≤ .25"},
-      {"bands[4]", "power, .25 &lt; <i>f</i> ≤ .5"},
-      {"anisotropy_db_mean", "anisotropy, mean, dB"},
-      {"anisotropy_db_max", "anisotropy, largest, dB"},
-      {"histogram_max_deviation", "histogram, largest deviation"},
-      {"temporal_power_at_0", "power in time, 0 cycles/frame"},
-      {"temporal_power_low", "power in time, 0 &lt; <i>f</i> ≤ .125"},
-  }};
-  for (const auto& [name, label] : kLabels) {
-    if (name == figure) return std::string(label);
+  std::string label;
+  std::string_view plain = figure;
+  const std::string words = bn::label_of(plain);
+  for (std::string_view rest = words; !rest.empty();) {
+    if (rest.starts_with(" < f <= ")) {
+      label += " &lt; <i>f</i> ≤ ";
+      rest.remove_prefix(8);
+    } else {
+      label += escaped(rest.substr(0, 1));
+      rest.remove_prefix(1);
+    }
   }
-  return escaped(figure);
+  return label;
 }
 
 std::string frequency(double f) { return std::isnan(f) ? "–" : fmt::format("{:.3f}", f); }
 
+std::string reasons_html(const Verdict& verdict) {
+  if (verdict.reasons.empty()) return {};
+  std::string items;
+  for (const std::string& reason : verdict.reasons) items += "<li>" + escaped(reason) + "</li>";
+  return "<ul class=\"reasons\">" + items + "</ul>\n";
+}
+
 std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
+  const Judgement& judgement = verdict.judgement;
   std::string rows;
   const auto row = [&](const std::string& label, const std::string& value, const std::string& limits,
-                       const std::string& mark) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td></tr>\n", label, value,
-                        limits, mark);
+                       const std::string& best, const std::string& score, const std::string& mark) {
+    rows += fmt::format(
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", label,
+        value, limits, best, score, mark);
   };
   const auto with_threshold = [&](const std::string& name, double value) {
-    const auto judged = std::find_if(verdict.judged.begin(), verdict.judged.end(),
-                                     [&](const JudgedFigure& f) { return f.figure == name; });
-    const bool is = judged != verdict.judged.end();
-    row(label_of(name), number(value), is ? allowed(judged->low, judged->high) : "",
-        is ? badge(judged->passed) : "");
+    std::string limits, best, score, mark;
+    for (const JudgedFigure& judged : judgement.judged) {
+      if (judged.figure == name) limits = allowed(judged.low, judged.high), mark = badge(judged.passed);
+    }
+    for (const GradePart& part : judgement.grade.parts) {
+      if (part.figure != name) continue;
+      if (name != "anisotropy_db_mean") best = number(part.best);
+      score = score_text(part.score);
+    }
+    row(label_of(name), number(value), limits, best, score, mark);
   };
   for (std::size_t b = 0; b < figures.bands.mean.size(); ++b) {
     with_threshold(fmt::format("bands[{}]", b), figures.bands.mean[b]);
@@ -100,19 +121,19 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
   const bool constant = !(figures.peak > 0.0);
   row("peak of the radial power",
       fmt::format("{} at {}", number(figures.peak), frequency(figures.peak_frequency)),
-      constant ? "above 0" : "", constant ? badge(false) : "");
+      constant ? "above 0" : "", "", "", constant ? badge(false) : "");
   for (std::size_t s = 0; s < kResidualSigmas.size(); ++s) {
     row(fmt::format("left by a Gaussian blur of {:.1f} px, dB", kResidualSigmas[s]),
-        number(figures.gauss_residual_db[s]), "", "");
+        number(figures.gauss_residual_db[s]), "", "", "", "");
   }
   return fmt::format(
       "<div class=\"wide\"><table class=\"merit\"><caption><b>Figures of merit.</b> Power is against white "
       "noise, "
-      "which reads 1.{}</caption><thead><tr><th scope=\"col\">figure</th><th scope=\"col\">value</th><th "
-      "scope=\"col\">allowed</th><th scope=\"col\"></th></tr></thead><tbody>{}</tbody></table></div>\n",
-      verdict.outcome == Verdict::Outcome::not_judged
-          ? " Not judged: this picture neither says that it is a mask nor looks like one."
-          : "",
+      "which reads 1. Score: 100 is as good as the best known of this size, 0 no better than white noise; "
+      "the least "
+      "is the grade.</caption><thead><tr><th scope=\"col\">figure</th><th scope=\"col\">value</th><th "
+      "scope=\"col\">allowed</th><th scope=\"col\">best known</th><th scope=\"col\">score</th><th "
+      "scope=\"col\">verdict</th></tr></thead><tbody>{}</tbody></table></div>\n",
       rows);
 }
 

@@ -5,27 +5,34 @@
 #include <string>
 #include <vector>
 
-#include "bn/spectrum.h"
+#include "bn/judgement.h"
 #include "report/sources.h"
 
 namespace bn::report {
 
 struct Verdict {
-  std::vector<JudgedFigure> judged;
-  enum class Outcome { passed, failed, not_judged } outcome = Outcome::not_judged;
-  std::string badge_html;
+  Judgement judgement;
+  enum class Outcome { good, weak, failed, not_judged } outcome = Outcome::not_judged;
+  std::vector<std::string> reasons;  ///< plain text; of every outcome but good
+  std::string badge_html;            ///< with the grade
 };
 
-/// A volume is held against the thresholds of spatiotemporal masks, a picture against those of blue noise. A
-/// picture that neither says it is a mask nor looks like one (its values are not evenly spread, its spectrum
-/// is neither blue nor white) is not judged: a photograph fails at nothing by not being noise.
-Verdict verdict_of(const Texture& texture, const FiguresOfMerit& figures);
+/// A volume is held against the thresholds of spatiotemporal masks, a picture against those of blue noise, as
+/// bn spectrum does. A picture that does not say it is a mask and has far more power at low frequencies than
+/// white noise is not judged: a photograph fails at nothing by not being noise.
+Verdict verdict_of(const Texture& texture, const Analysis& analysis, const Execution& execution);
+
+/// "99" or "–".
+std::string score_text(double score);
 
 /// The words of a figure, by its JSON name; HTML.
 std::string label_of(const std::string& figure);
 
-/// Every figure, with its threshold where it has one.
+/// Every figure, with its threshold, the best known and its score where it has them.
 std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict);
+
+/// The reasons as a list; nothing where there are none.
+std::string reasons_html(const Verdict& verdict);
 
 /// A frequency as captions write it.
 std::string frequency(double f);

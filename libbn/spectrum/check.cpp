@@ -54,6 +54,9 @@ constexpr double kWhiteDeviations = 5.0;
 
 /// Counts of a flat mask differ from N / bins by less than one, and 8 bit rounding may add a little.
 constexpr double kHistogramMargin = 0.05;
+/// A mask of 8 bit follows any curve within half a level times its steepness, .004 for the triangle; the
+/// nearest other common shape, a Gaussian of the same width, is .017 off.
+constexpr double kDistributionLimit = 0.012;
 
 class Judge {
  public:
@@ -93,7 +96,10 @@ class Judge {
     expect("anisotropy_db_max", figures_.anisotropy_db_max, -kAny, background_db + kAnisotropyMaxMargin_db);
   }
 
-  void expect_flat_histogram() {
+  void expect_distribution() {
+    if (figures_.distribution != Distribution::uniform) {
+      return expect("distribution_distance", figures_.distribution_distance, 0.0, kDistributionLimit);
+    }
     const double expected = std::max(1.0, static_cast<double>(figures_.shape.count()) / kHistogramBins);
     expect("histogram_max_deviation", figures_.histogram_max_deviation, 0.0,
            1.0 / expected + kHistogramMargin);
@@ -119,7 +125,45 @@ class Judge {
   std::vector<JudgedFigure> judged_;
 };
 
+/// What a check allows, without the ends that no figure can reach.
+std::string limits_in_words(double low, double high) {
+  if (std::isinf(high)) return low == 0.0 ? "more than 0 is needed" : fmt::format("at least {:.4g}", low);
+  if (std::isinf(low) || low == 0.0) return fmt::format("at most {:.4g}", high);
+  return fmt::format("{:.4g} to {:.4g} is allowed", low, high);
+}
+
 }  // namespace
+
+std::string label_of(std::string_view figure) {
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kLabels{{
+      {"bands[0]", "power, 0 < f <= 0.0625"},
+      {"bands[1]", "power, 0.0625 < f <= 0.125"},
+      {"bands[2]", "power, 0.125 < f <= 0.1875"},
+      {"bands[3]", "power, 0.1875 < f <= 0.25"},
+      {"bands[4]", "power, 0.25 < f <= 0.5"},
+      {"anisotropy_db_mean", "anisotropy, mean, dB"},
+      {"anisotropy_db_max", "anisotropy, largest, dB"},
+      {"histogram_max_deviation", "histogram, largest deviation"},
+      {"distribution_distance", "distribution, largest distance"},
+      {"temporal_power_at_0", "power in time, 0 cycles/frame"},
+      {"temporal_power_low", "power in time, 0 < f <= 0.125"},
+      {"peak", "peak of the radial power"},
+      {"depth", "slices"},
+  }};
+  for (const auto& [name, label] : kLabels) {
+    if (name == figure) return std::string(label);
+  }
+  return std::string(figure);
+}
+
+std::string describe(const JudgedFigure& figure) {
+  return fmt::format("{}: {:.3g}, {}", label_of(figure.figure), figure.value,
+                     limits_in_words(figure.low, figure.high));
+}
+
+std::string describe(const CheckFailure& failure) {
+  return describe(JudgedFigure{failure.figure, failure.value, failure.low, failure.high, false});
+}
 
 std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind) {
   Judge judge(figures);
@@ -128,7 +172,7 @@ std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind) {
   switch (kind) {
     case Check::blue:
       judge.expect_bands(kBlueLimits);
-      judge.expect_flat_histogram();
+      judge.expect_distribution();
       break;
     case Check::white:
       judge.expect_white_bands();
@@ -137,7 +181,7 @@ std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind) {
       judge.expect_volume();
       judge.expect_bands(kSliceLimits);
       judge.expect_blue_in_time();
-      judge.expect_flat_histogram();
+      judge.expect_distribution();
       break;
   }
   return std::move(judge).judged();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bn/spectrum.h"
+#include "spectrum/distribution.h"
 #include "spectrum/ranks.h"
 #include "spectrum/transform.h"
 
@@ -91,7 +92,7 @@ FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max
 }
 
 Analysis analyse(std::span<const double> values, Shape shape, double low, double high,
-                 const Execution& execution) {
+                 const Execution& execution, Distribution distribution) {
   check_shape(shape, static_cast<std::int64_t>(values.size()), "analysis");
   check_finite(values, shape, "analysis", execution);
   const auto bins = static_cast<int>(std::min<std::int64_t>(kHistogramBins, shape.count()));
@@ -101,6 +102,12 @@ Analysis analyse(std::span<const double> values, Shape shape, double low, double
                             ? power_spectrum(values, shape, execution)
                             : power_spectrum(midranks(values, execution), shape, execution);
   FiguresOfMerit figures = figures_of_merit(power, deviation);
+  figures.distribution = distribution;
+  if (distribution == Distribution::triangular) {
+    const spectrum::Spread spread = spectrum::spread_of(values, low, high, execution);
+    figures.distribution_distance =
+        spectrum::distance_from(spread, [](double u) { return spectrum::triangular_share(u); });
+  }
   return {std::move(power), figures};
 }
 

@@ -35,14 +35,16 @@ void append_curve(const PowerSpectrum& power, std::string_view axis, std::string
 
 std::string to_json(const FiguresOfMerit& figures) {
   std::string text = fmt::format(
-      "{{\"width\": {}, \"height\": {}, \"depth\": {}, \"textures\": {}, \"bands\": {}, \"peak\": {}, "
-      "\"peak_frequency\": {}, \"anisotropy_db_mean\": {}, \"anisotropy_db_max\": {}, \"gauss_residual_db\": "
-      "{}, "
-      "\"histogram_max_deviation\": {}",
+      "{{\"size\": [{}, {}], \"depth\": {}, \"textures\": {}, \"bands\": {}, \"peak\": {}, "
+      "\"peak_frequency\": {}, \"anisotropy_db_mean\": {}, \"anisotropy_db_max\": {}, "
+      "\"gauss_residual_db\": {}, \"histogram_max_deviation\": {}, \"distribution\": \"{}\"",
       figures.shape.width, figures.shape.height, figures.shape.depth, figures.textures,
       array(figures.bands.mean), number(figures.peak), number(figures.peak_frequency),
       number(figures.anisotropy_db_mean), number(figures.anisotropy_db_max), array(figures.gauss_residual_db),
-      number(figures.histogram_max_deviation));
+      number(figures.histogram_max_deviation), name_of(figures.distribution));
+  if (figures.distribution != Distribution::uniform) {
+    text += fmt::format(", \"distribution_distance\": {}", number(figures.distribution_distance));
+  }
   if (figures.shape.depth > 1) {
     text += fmt::format(", \"temporal_power_at_0\": {}, \"temporal_power_low\": {}",
                         number(figures.temporal_power_at_0), number(figures.temporal_power_low));

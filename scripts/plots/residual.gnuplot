@@ -3,5 +3,5 @@ set logscale y
 set xrange [0:0.7072]
 set yrange [1e-3:6]
 set xtics 0.1
-set ytics ("1" 1, "0.1" 0.1, "0.01" 0.01, "0.001" 1e-3)
+set ytics ("1" 1, "10⁻¹" 0.1, "10⁻²" 0.01, "10⁻³" 1e-3)
 set xlabel 'frequency, cycles/pixel' textcolor rgb '#141414'

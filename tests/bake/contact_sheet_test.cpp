@@ -1,7 +1,12 @@
 // Protects: the contact sheet has every section it should, stays readable at odd sizes, and its
 // letters exist.
+#include <cmath>
+#include <numbers>
+
 #include "bake/canvas.h"
 #include "bake/label_font.h"
+#include "bake/sheet_spectrum.h"
+#include "bn/random.h"
 #include "fixtures.h"
 
 namespace bn {
@@ -22,6 +27,55 @@ TEST(ContactSheet, HasASectionForEverySetAndLoneMask) {
   EXPECT_GT(height(mask + set), one_mask) << "a set has two rows";
   EXPECT_GT(height(mask + wide), one_mask);
   EXPECT_EQ(height(mask + wide) - one_mask, height(mask + set + wide) - height(mask + set));
+}
+
+TEST(ContactSheet, PutsManyMasksIntoAGrid) {
+  const TemporaryFolder out;
+  const auto size = [&](int masks) {
+    std::string recipe = "version = 1\n";
+    for (int i = 0; i < masks; ++i) {
+      recipe += "[[mask]]\nname = 'm" + std::to_string(i) + "'\nsize = [8, 8]\noutputs = ['m" +
+                std::to_string(i) + ".png']\n";
+    }
+    bake(parse_recipe(recipe, "r", ""), {.out_dir = out, .force = true});
+    return read_image(out / "contact_sheet.png").image.size;
+  };
+  EXPECT_LT(size(32).height, 2100);
+  EXPECT_EQ(size(32).height - size(28).height, size(28).height - size(24).height) << "four in a row";
+  EXPECT_EQ(size(29), size(32));
+  EXPECT_EQ(size(1).width, size(32).width);
+}
+
+TEST(SheetSpectrum, IsThePowerInDecibels) {
+  // A wave: two frequencies hold all power; N/2 each against white noise.
+  Grid<std::int32_t> wave(Extent{32, 16});
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      wave(x, y) = static_cast<std::int32_t>(
+          std::lround(100000 * std::cos(2 * std::numbers::pi * (3 * x / 32.0 + y / 16.0))));
+    }
+  }
+  const Grid<std::uint8_t> power = sheet_spectrum(wave);
+  ASSERT_EQ(power.size(), (Extent{32, 16}));
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const bool there = (x == 16 + 3 && y == 8 + 1) || (x == 16 - 3 && y == 8 - 1);
+      EXPECT_EQ(power(x, y), there ? 255 : 0) << x << " " << y;
+    }
+  }
+}
+
+TEST(SheetSpectrum, FoldsLargeMasksAndLeavesOutWhatItCannot) {
+  EXPECT_EQ(sheet_spectrum(Grid<std::int32_t>(Extent{8, 8}, 5)).count(), 0u);
+  Grid<std::int32_t> noise(Extent{512, 300});
+  for (std::size_t i = 0; i < noise.count(); ++i)
+    noise[i] = static_cast<std::int32_t>(random_bits(1, 0, i) & 255u);
+  const Grid<std::uint8_t> power = sheet_spectrum(noise);
+  EXPECT_EQ(power.size(), (Extent{128, 100}));
+  double mean = 0.0;
+  for (const std::uint8_t level : power) mean += level / static_cast<double>(power.count());
+  EXPECT_NEAR(mean, 255 * (50 - 2.5) / 62.5, 3.0);  // white noise reads 0 dB, its decibels -2.5 in the mean
+  EXPECT_EQ(sheet_spectrum(Grid<std::int32_t>(Extent{257, 8}, 1)).count(), 0u);
 }
 
 TEST(ContactSheet, IsLeftOutOnRequest) {
@@ -48,13 +102,6 @@ TEST(LabelFont, HasEveryCharacterACaptionMayUse) {
     EXPECT_TRUE(seen.emplace(pixels(c), c).second) << c << " looks like " << seen[pixels(c)];
   }
   EXPECT_EQ(pixels('\x01'), pixels('?'));
-}
-
-TEST(MoveColour, HasNoHueWithoutAMoveAndDiffersByDirection) {
-  const Colour none = move_colour({0, 0}, 6.0);
-  EXPECT_LE(std::max({none.red, none.green, none.blue}) - std::min({none.red, none.green, none.blue}), 2);
-  EXPECT_FALSE(move_colour({6, 0}, 6.0) == move_colour({-6, 0}, 6.0));
-  EXPECT_FALSE(move_colour({0, 6}, 6.0) == move_colour({0, -6}, 6.0));
 }
 
 }  // namespace

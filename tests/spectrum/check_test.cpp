@@ -3,12 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "bn/noise.h"
-#include "bn/random.h"
 #include "direct_dft.h"
+#include "raised_floor.h"
 #include "reference_mask.h"
 #include "reference_stbn.h"
 
@@ -32,28 +31,6 @@ std::vector<double> baked_mask(int side, double sigma_px) {
   return values_of(void_and_cluster({.size = {side, side}, .sigma_px = sigma_px}));
 }
 
-/// Adds a floor of `power` to the lowest band of a mask of ranks: a wave of random phase at each of
-/// its frequencies.
-std::vector<double> with_raised_floor(std::vector<double> ranks, int side, double power) {
-  const double n = static_cast<double>(ranks.size());
-  // |F| = amplitude * N / 2 and power = |F|^2 / (N * N^2 / 12), for ranks 0..N-1.
-  const double amplitude = 2.0 * std::sqrt(power * n / 12.0);
-  const int reach = side / 16;
-  std::uint64_t draw = 0;
-  for (int ky = -reach; ky <= reach; ++ky) {
-    for (int kx = 0; kx <= reach; ++kx) {
-      if (kx * kx + ky * ky > reach * reach || (kx == 0 && ky <= 0)) continue;
-      const double phase =
-          2.0 * std::numbers::pi * static_cast<double>(random_bits(1, 0, draw++) >> 11) * 0x1p-53;
-      for (int i = 0; i < side * side; ++i) {
-        ranks[static_cast<std::size_t>(i)] +=
-            amplitude * std::cos(2.0 * std::numbers::pi * (kx * (i % side) + ky * (i / side)) / side + phase);
-      }
-    }
-  }
-  return midranks(ranks);
-}
-
 TEST(CheckBlue, PassesGoodMasks) {
   for (const int side : {32, 64, 128}) {
     for (const double sigma : {1.5, 1.9}) {
@@ -71,7 +48,7 @@ TEST(CheckBlue, PassesPetersMasks) {
 }
 
 TEST(CheckBlue, FailsARaisedFloor) {
-  const auto mask = with_raised_floor(baked_mask(128, 1.9), 128, 0.015);
+  const auto mask = test::with_raised_floor(baked_mask(128, 1.9), 128, 0.015);
   EXPECT_NEAR(analyse(mask, {128, 128}, 0.0, 128 * 128).figures.bands.mean[0], 0.015, 0.001);
   EXPECT_EQ(failures(mask, {128, 128}, 128 * 128, Check::blue), std::vector<std::string>{"bands[0]"});
 }

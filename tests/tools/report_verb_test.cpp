@@ -32,7 +32,7 @@ TEST_F(ReportVerb, WritesThePageAndItsCurves) {
   const ProcessResult outcome =
       run({"blue.png", "bayer.png", "-o", "r.html", "--compare", "--csv", "curves"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(outcome.out, "r.html: 2 textures, 0 retarget sets, 0 volumes; 1 miss a threshold\n");
+  EXPECT_EQ(outcome.out, "r.html: 2 textures, 0 retarget sets, 0 volumes; 1 of 2 fail\n");
   const std::string page = read_bytes(scratch_ / "r.html");
   EXPECT_TRUE(page.starts_with("<!DOCTYPE html>"));
   EXPECT_TRUE(page.ends_with("</html>\n"));

@@ -24,7 +24,7 @@ struct ReportOptions {
       {};                ///< empty, or the folder for one CSV file a plot; made if its parent exists
   bool compare = false;  ///< begin with all textures side by side and their curves in common plots
   /// The inputs are volumes: each folder is one, its files its slices in name order (numbers by their value);
-  /// all files given by name are the slices of one more, in the order given.
+  /// all files given by name are the slices of one more, in the same order.
   bool volume = false;
 };
 
@@ -33,8 +33,9 @@ struct ReportSummary {
   int masks = 0;
   int retarget_sets = 0;
   int volumes = 0;
-  int failed = 0;      ///< textures that miss a threshold, sets that are not as recorded
-  int not_judged = 0;  ///< pictures that neither say they are masks nor look like one
+  int failed = 0;      ///< textures that miss a threshold or repeat a channel, sets that are not as recorded
+  int weak = 0;        ///< textures that pass with a grade below kGoodGrade (bn/judgement.h)
+  int not_judged = 0;  ///< pictures that do not say they are masks, and textures too small to judge
   std::vector<std::string>
       notes;  ///< files that could not be read, plots that could not be drawn; also in the page
 };

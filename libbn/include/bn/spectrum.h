@@ -13,11 +13,13 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <complex>
 #include <cstdint>
 #include <limits>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bn/execution.h"
@@ -146,6 +148,13 @@ inline constexpr std::array<double, 3> kResidualSigmas{1.0, 1.5, 2.0};
 /// Bins of the histogram that figures of merit are made from; fewer where a texture has fewer pixels.
 inline constexpr int kHistogramBins = 256;
 
+/// How a texture's values should be spread over their range low..high.
+enum class Distribution {
+  uniform,     ///< each value equally often, as in a mask of ranks
+  triangular,  ///< the sum of two uniform ones (TPDF dither): most often the middle, never the ends
+};
+std::string_view name_of(Distribution distribution);  ///< "uniform", "triangular"
+
 /// The figures by which textures are compared. For a volume all but the last are of its slices
 /// (Projection::xy). NaN: undefined for this texture. All are of the ranks of the pixels, but for
 /// the histogram, so that an encoding changes none of them.
@@ -158,7 +167,11 @@ struct FiguresOfMerit {
   double anisotropy_db_mean = 0.0;            ///< over the annuli of at least 32 frequencies
   double anisotropy_db_max = 0.0;             ///< over the same
   std::array<double, 3> gauss_residual_db{};  ///< for kResidualSigmas
-  double histogram_max_deviation = 0.0;
+  double histogram_max_deviation = 0.0;       ///< from a flat histogram
+  Distribution distribution = Distribution::uniform;  ///< what was asked for
+  /// Largest difference between the share of values below a value and what a distribution other than uniform
+  /// makes it (Kolmogorov and Smirnov), 0..1; NaN for uniform.
+  double distribution_distance = std::numeric_limits<double>::quiet_NaN();
   /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame, which no order of the slices
   /// changes,
   double temporal_power_at_0 = std::numeric_limits<double>::quiet_NaN();
@@ -174,12 +187,13 @@ FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max
 
 /// The power of the ranks of `values`, and its figures. `low`..`high` is the range that the
 /// histogram covers (256 bins, or N if less): 0..256 for 8 bit, 0..65536 for 16 bit, 0..1 for float.
+/// `distribution` is what the values should have over that range.
 struct Analysis {
   PowerSpectrum power;
   FiguresOfMerit figures;
 };
 Analysis analyse(std::span<const double> values, Shape shape, double low, double high,
-                 const Execution& execution = {});
+                 const Execution& execution = {}, Distribution distribution = Distribution::uniform);
 
 /// The centred power in grey, in decibels: `low_db` and less is 0, `high_db` and more 255; white noise is 0
 /// dB.
@@ -189,10 +203,35 @@ Grid<std::uint8_t> log_picture(const PowerSpectrum& power, double low_db = -50.0
 /// a volume the curve in time after it (axis "time"). Undefined values are empty.
 std::string curves_csv(const PowerSpectrum& power);
 
-/// One JSON object: bands, peak, peak_frequency, anisotropy_db_mean, anisotropy_db_max,
-/// gauss_residual_db, histogram_max_deviation, width, height, depth, textures, and for volumes
-/// temporal_power_at_0 and temporal_power_low. Undefined figures are null.
+/// One JSON object: size ([width, height]), depth, textures, bands, peak, peak_frequency, anisotropy_db_mean,
+/// anisotropy_db_max, gauss_residual_db, histogram_max_deviation, distribution; distribution_distance where
+/// the distribution is not uniform; temporal_power_at_0 and temporal_power_low for volumes. Undefined figures
+/// are null. docs/spectrum.md describes each.
 std::string to_json(const FiguresOfMerit& figures);
+
+// --- two textures ----------------------------------------------------------------------------------
+
+/// What two textures of one shape have in common, of their ranks. NaN where one of them is constant.
+struct CrossSpectrum {
+  double correlation = 0.0;       ///< of the pixels at the same place, -1..1
+  double peak_correlation = 0.0;  ///< the one furthest from 0 over all displacements on the torus
+  /// Where: the second at p + (x, y, z) is what the first is at p. The nearest to no displacement.
+  int peak_x = 0, peak_y = 0, peak_z = 0;
+  /// What |peak_correlation| stays below if the two are independent: six standard deviations of the chance
+  /// that their own spectra leave. 1 and more: they are too small to tell.
+  double limit = 0.0;
+  /// By band, |sum F1 conj(F2)|^2 / (sum |F1|^2 sum |F2|^2): 1 for equal textures, about 1/n for independent
+  /// ones, n half the frequencies of the band. A displacement lowers it: it turns every frequency by another
+  /// angle.
+  std::array<double, 5> coherence{};
+
+  bool can_tell() const { return limit < 1.0; }
+  bool independent() const { return !(std::abs(peak_correlation) > limit); }
+};
+
+/// Memory: four complex halves of the shape. Cost: three transforms.
+CrossSpectrum cross_spectrum(std::span<const double> first, std::span<const double> second, Shape shape,
+                             const Execution& execution = {});
 
 // --- checks --------------------------------------------------------------------------------------
 
@@ -219,6 +258,13 @@ struct JudgedFigure {
   double low, high;
   bool passed;
 };
+
+/// The words of a figure by its JSON name, in ASCII: "power, 0 < f <= 0.0625" for "bands[0]".
+std::string label_of(std::string_view figure);
+
+/// "power, 0 < f <= 0.0625: 0.015, at most 0.002".
+std::string describe(const JudgedFigure& figure);
+std::string describe(const CheckFailure& failure);
 
 /// Every figure that check() judges, in its order.
 std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind);
