@@ -65,15 +65,21 @@ TEST(Measures, AWaveAboveTheBandIsNotSeen) {
 
 class BakedFolder : public testing::Test {
  protected:
+  /// What the tile says of itself; an empty hash is none.
+  void record(const std::string& form, const std::string& source_hash) {
+    tile_.facts = {};
+    tile_.facts.add("step", test::kStep);
+    tile_.facts.add("form", form);
+    if (!source_hash.empty()) tile_.facts.add("source_hash", source_hash);
+  }
+
   BakedFolder() {
     mask_.kind = "mask";
     write_image(folder_ / "mask.png", encode_levels(), mask_);
     const Image moves = encode_moves(test::proven_textures().moves[0]);
     tile_.kind = "retarget-tile";
-    tile_.step = test::kStep;
-    tile_.form = "scatter";
+    record("scatter", pixel_hash(encode_levels()));
     tile_.tiles = {{}};
-    tile_.source_hash = pixel_hash(encode_levels());
     write_image(folder_ / "retarget.png", moves, tile_);
   }
 
@@ -118,10 +124,10 @@ TEST_F(BakedFolder, AWrongStepCostsWhatTheStudySays) {
 }
 
 TEST_F(BakedFolder, RefusesAnotherMaskAndOtherSizes) {
-  tile_.source_hash = "xxh3-128:0";
+  record("scatter", "xxh3-128:0");
   write_image(folder_ / "retarget.png", encode_moves(test::proven_textures().moves[0]), tile_);
   EXPECT_NE(refusal().find("another mask"), std::string::npos) << refusal();
-  tile_.source_hash.reset();
+  record("scatter", "");
   write_image(folder_ / "retarget.png", encode_moves(Grid<Offset>({32, 64})), tile_);
   EXPECT_NE(refusal().find("32x64"), std::string::npos) << refusal();
   std::filesystem::remove(folder_ / "retarget.png");

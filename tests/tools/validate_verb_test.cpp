@@ -175,5 +175,17 @@ TEST_F(ValidateTextures, MissingAndForeignFilesAreRefused) {
   expect_failure(3, with_textures(), {"retarget.png"});
 }
 
+// Scenes go through the same door to TOML as recipes. The parser of these texts once ended the program with an abort.
+TEST(ValidateScenes, ThatAreNoTomlEndWithAMessage) {
+  const ScratchFolder scratch;
+  for (const char* text : {"a = [ }\n", "[.a]\n", "key \xc3\xa4 = 1\n", "a = \"", "[[quad]]\ncorner = [0, 0\n"}) {
+    write_bytes(scratch / "a.toml", text);
+    const auto result = run_bn({"validate", "a.toml", "-o", "out"}, {.folder = scratch.path()});
+    EXPECT_EQ(result.exit_code, 3) << text << result.err;
+    EXPECT_NE(result.err.find("a.toml"), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(scratch / "out"));
+  }
+}
+
 }  // namespace
 }  // namespace bn::tools

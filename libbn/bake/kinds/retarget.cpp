@@ -339,7 +339,7 @@ Metadata RetargetEntry::metadata(std::size_t output, const std::vector<Input>& i
   facts.add("metric", name_of(problem.metric));
   facts.add("wrap", Value(problem.wrap));
   facts.add("form", name_of(file.form));
-  const auto from = std::filesystem::absolute(folder).lexically_normal();
+  const auto from = std::filesystem::absolute(folder / ".").lexically_normal();
   facts.add(
       "source",
       std::filesystem::absolute(source.path).lexically_normal().lexically_relative(from).generic_string());
