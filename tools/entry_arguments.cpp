@@ -62,6 +62,15 @@ std::string allowed_of(const Option& option) {
   return "";
 }
 
+/// A condition in the words of recipes, method = "anneal", as a command line has it: --method anneal.
+std::string in_flags(std::string condition) {
+  if (const std::size_t at = condition.find(" = \""); at != std::string::npos) {
+    condition = "--" + condition.substr(0, at) + " " + condition.substr(at + 4);
+    std::erase(condition, '"');
+  }
+  return condition;
+}
+
 std::string help_of(const Option& option) {
   std::string help = option.help;
   if (!option.needs.empty() && option.needs.starts_with("method")) return help;  // the heading says so
@@ -159,7 +168,7 @@ void EntryArguments::check() const {
   for (const Option& option : options_.list()) {
     if (!was_given(option.key)) continue;
     if (!option.applies())
-      complain(option.key, "does not apply", "only with " + option.needs, "leave it out");
+      complain(option.key, "does not apply", "only with " + in_flags(option.needs), "leave it out");
     for (const std::string& other : option.not_beside) {
       if (was_given(other))
         complain(option.key, "given beside --" + other, "one of the two", "leave one out");
