@@ -20,8 +20,17 @@ class AnnealVerb : public testing::Test {
  protected:
   AnnealVerb() { write_image(scratch_ / "m.png", simple_mask(64), {}); }
   std::vector<std::string> arguments(const std::string& budget, const std::string& out) {
-    return {"retarget", "m.png", "--step", "13,29", "--method", "anneal",
-            "--budget", budget,  "--json", "-o",    out};
+    return {"retarget",
+            "m.png",
+            "--step",
+            "13,29",
+            "--method",
+            "anneal",
+            budget.ends_with('s') ? "--seconds" : "--proposals",
+            budget.substr(0, budget.find('s')),
+            "--json",
+            "-o",
+            out};
   }
   ProcessResult run(const std::vector<std::string>& arguments) {
     return run_bn(arguments, {.folder = scratch_.path()});
@@ -79,8 +88,8 @@ TEST_F(AnnealVerb, AnnealsWhatTheExactSolverCannot) {
   three.samples.resize(16 * 16 * 3 * 2);
   write_image(scratch_ / "rgb.png", three, {});
   const auto words = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> all{"retarget", "rgb.png", "--step", "5,3",   "--radius", "3",  "--method",
-                                 "anneal",   "--json",  "-o",     "o.png", "--budget", "2e5"};
+    std::vector<std::string> all{"retarget", "rgb.png", "--step", "5,3",   "--radius",    "3",  "--method",
+                                 "anneal",   "--json",  "-o",     "o.png", "--proposals", "2e5"};
     all.insert(all.end(), more.begin(), more.end());
     return all;
   };
@@ -182,17 +191,19 @@ TEST_F(AnnealVerb, CtrlCLeavesACheckpointAndAKillTheOneThatThereWas) {
 
 TEST_F(AnnealVerb, BadSettingsAreNamedAndNothingIsOverwritten) {
   write_bytes(scratch_ / "tile.png", "mine");
-  const auto refused = [&](const std::vector<std::string>& more, const std::string& named) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& named,
+                           int exit_code = 3) {
     auto words = arguments("1e6", "tile.png");
     words.insert(words.end(), more.begin(), more.end());
     const auto result = run(words);
-    EXPECT_EQ(result.exit_code, 3) << named;
+    EXPECT_EQ(result.exit_code, exit_code) << named << result.err;
     EXPECT_NE(result.err.find(named), std::string::npos) << result.err;
     EXPECT_NE(result.err.find("allowed"), std::string::npos) << result.err;
     EXPECT_EQ(read_bytes(scratch_ / "tile.png"), "mine");
   };
-  refused({"--schedule", "boil"}, "boil");
-  for (const char* factor : {"0", "1.5"}) refused({"--factor", factor}, "factor");
+  // What cannot be a value of its option is a wrong command line, whatever the option.
+  refused({"--schedule", "boil"}, "boil", 1);
+  for (const char* factor : {"0", "1.5"}) refused({"--factor", factor}, "factor", 1);
   refused({"--schedule", "kirkpatrick", "--factor", "1"}, "factor");
   refused({"--schedule", "linear", "--factor", "0.5"}, "factor");
   refused({"--coupling", "tempering"}, "chains");
@@ -201,10 +212,10 @@ TEST_F(AnnealVerb, BadSettingsAreNamedAndNothingIsOverwritten) {
   refused({"--channels", "0,7"}, "channel");
   refused({"--motion", "1", "--trace", "t.csv"}, "--trace");
   refused({"--gap", "1%"}, "--gap");
-  refused({"--start-temperature", "1", "--end-temperature", "2"}, "end_temperature");
+  refused({"--start-temperature", "1", "--end-temperature", "2"}, "--end-temperature");
   const auto zero = run(arguments("0", "tile.png"));
-  EXPECT_EQ(zero.exit_code, 3);
-  EXPECT_NE(zero.err.find("budget"), std::string::npos);
+  EXPECT_EQ(zero.exit_code, 1);
+  EXPECT_NE(zero.err.find("--proposals"), std::string::npos);
   write_bytes(scratch_ / "tile.png.checkpoint", "annlcp01 and then rubbish that is long enough to be read");
   refused({}, "checkpoint");
   // Of another run, and of this one cut short.
@@ -219,10 +230,23 @@ TEST_F(AnnealVerb, BadSettingsAreNamedAndNothingIsOverwritten) {
   refused({}, "cut short");
 }
 
+TEST_F(AnnealVerb, NamesOfVersion01GoOnWorking) {
+  const auto result = run({"retarget", "m.png", "--step", "13,29", "--method", "anneal", "--budget", "1e5",
+                           "--no-wrap", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(result.err.find("--budget is --proposals now"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--no-wrap is --wrap false now"), std::string::npos) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json.at("proposals"), 100'000);
+  EXPECT_EQ(json.at("wrap"), false);
+}
+
 TEST_F(AnnealVerb, FlagsOfAnnealingNeedIt) {
   const auto result = run({"retarget", "m.png", "--schedule", "linear"});
   EXPECT_EQ(result.exit_code, 3);
-  EXPECT_NE(result.err.find("--schedule: given without annealing"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("--schedule: does not apply (allowed: only with --method anneal)"),
+            std::string::npos)
+      << result.err;
 }
 
 TEST_F(AnnealVerb, TheStudyMakesItsFigures) {

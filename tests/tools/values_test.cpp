@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "bn/error.h"
+#include "bn/options.h"
 
 namespace bn::tools {
 namespace {

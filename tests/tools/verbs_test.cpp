@@ -98,7 +98,7 @@ TEST_F(Verbs, BakeMakesSkipsAndVerifies) {
   write_bytes(scratch_ / "r.toml", kRecipe);
   const Json plan = json({"bake", "r.toml", "--out", "out", "--dry-run", "--json"});
   EXPECT_EQ(plan.at("jobs").size(), 3u);
-  EXPECT_EQ(plan.at("jobs")[0].at("stands"), false);
+  EXPECT_EQ(plan.at("jobs")[0].at("up_to_date"), false);
   EXPECT_EQ(names_in(scratch_.path()), std::vector<std::string>{"r.toml"}) << "a dry run writes nothing";
 
   const Json made = json({"bake", "r.toml", "--out", "out", "--json"});

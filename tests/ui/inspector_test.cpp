@@ -103,16 +103,16 @@ outputs = [{ path = "atlas.png", kind = "atlas" }]
 open recipe.toml
 wait-for Bake enabled
 expect Jobs = 3
-expect "mask mask" = "to make"
+expect "mask mask" = "to bake"
 set "Into folder" baked
 wait-for Bake enabled
 click Bake
 wait-for Status contains "Baked into baked"
-expect "retarget moves" = made
+expect "retarget moves" = baked
 expect Progress contains "100 %"
 screenshot bake.png
 click "Read again"
-wait-for "mask mask" = stands
+wait-for "mask mask" = "up to date"
 click atlas.png
 wait-for Size = "32 × 32, 9 slices"
 expect Columns = 3
