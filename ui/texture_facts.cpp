@@ -123,12 +123,14 @@ void TextureView::draw_metadata() {
                   : fmt::format("{}, {}", a->schedule, budget),
           stopped ? palette().warn : palette().text);
   }
-  if (m.seed) value("Seed", fmt::format("{}", *m.seed));
-  if (m.step) value("Step", fmt::format("({}, {})", m.step->x, m.step->y));
-  if (m.radius) value("Radius", fmt::format("{}{}", *m.radius, m.reach ? ", " + *m.reach : ""));
-  if (m.metric) value("Metric", *m.metric);
-  if (m.form) value("Form", *m.form);
-  if (m.source) value("Source", *m.source);
+  const auto reach = m.facts.get<std::string>("reach");
+  if (const auto seed = m.facts.get<std::int64_t>("seed")) value("Seed", fmt::format("{}", *seed));
+  if (const auto step = m.facts.get<Offset>("step")) value("Step", fmt::format("({}, {})", step->x, step->y));
+  if (const auto radius = m.facts.get<int>("radius"))
+    value("Radius", fmt::format("{}{}", *radius, reach ? ", " + *reach : ""));
+  for (const auto& [name, key] : {std::pair{"Metric", "metric"}, {"Form", "form"}, {"Source", "source"}}) {
+    if (const auto word = m.facts.get<std::string>(key)) value(name, *word);
+  }
   draw_tile_record();
   value("Pixel hash", texture_->hash_fits ? "as recorded" : "not the recorded one",
         texture_->hash_fits ? palette().good : palette().bad, m.pixel_hash);

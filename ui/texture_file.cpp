@@ -175,9 +175,9 @@ Picture picture_of(const TextureFile& texture, const Section& section) {
   if (section.moves && !section.xz && holds_moves(texture)) {
     const Metadata& m = *texture.metadata;
     const auto index = static_cast<std::size_t>(section.index);
-    RetargetOptions options{.radius = *m.radius};
+    RetargetOptions options{.radius = *m.facts.get<int>("radius")};
     if (index < m.tiles.size()) options.motion = m.tiles[index].motion;
-    if (m.reach == "euclidean") options.reach = Reach::euclidean;
+    if (m.facts.get<std::string>("reach") == "euclidean") options.reach = Reach::euclidean;
     return offset_picture(decode_moves(slice(texture, section.cut, section.index)), options);
   }
   const Extent size = slice_size(texture, section.cut);
