@@ -263,6 +263,9 @@ Value value_from_text(const Option& option, std::string_view text, std::string_v
   if (!option.unset_word.empty() && text == option.unset_word) return {};
   const auto value = parsed(option, text);
   if (!value) {
+    // A share without its sign could be meant either way.
+    if (option.percent && whole_text_as<double>(text))
+      fail(fmt::format("'{}' has no % sign", text), fmt::format("write {}%", text));
     const bool empty = text.empty();
     fail(empty ? "is empty" : fmt::format("'{}' cannot be read", text), std::string(sample_of(option)));
   }

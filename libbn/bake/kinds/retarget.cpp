@@ -378,7 +378,7 @@ Made RetargetEntry::make(const std::vector<Input>& inputs, const Execution& exec
   check_inputs({source.size()},
                [&](std::string_view key, std::string what, std::string limit, std::string remedy) {
                  throw Error({.code = ErrorCode::invalid_input,
-                              .what = std::move(what),
+                              .what = fmt::format("{} {}", key, what),
                               .where = std::string(key),
                               .limit = std::move(limit),
                               .remedy = std::move(remedy)});
