@@ -50,7 +50,7 @@ void render_gbuffer(GBuffer& gbuffer, const PackedScene& scene, const FrameConst
   });
 }
 
-void render_paths(Grid<Colour>& colour, Grid<float>& luminance, const GBuffer& gbuffer, const Seeds& seeds,
+void render_paths(Grid<Rgb>& colour, Grid<float>& luminance, const GBuffer& gbuffer, const Seeds& seeds,
                   const std::vector<std::int32_t>& levels, const PackedScene& scene,
                   const FrameConstants& constants, const Execution& execution) {
   parallel_for(execution, colour.height(), [&](std::int64_t row) {
@@ -68,11 +68,11 @@ void render_paths(Grid<Colour>& colour, Grid<float>& luminance, const GBuffer& g
   });
 }
 
-Grid<std::uint32_t> tone_map(const Grid<Colour>& colour) {
+Grid<std::uint32_t> tone_map(const Grid<Rgb>& colour) {
   Grid<std::uint32_t> shown(colour.size());
   ToneMap map;
   for (std::size_t i = 0; i < shown.count(); ++i) {
-    const Colour& c = colour[i];
+    const Rgb& c = colour[i];
     shown[i] = map.display_byte(c.r) | map.display_byte(c.g) << 8 | map.display_byte(c.b) << 16 | 0xFF000000u;
   }
   return shown;

@@ -17,10 +17,10 @@ struct GBuffer {
 void render_gbuffer(GBuffer& gbuffer, const PackedScene& scene, const FrameConstants& constants,
                     const Execution& execution);
 
-void render_paths(Grid<Colour>& colour, Grid<float>& luminance, const GBuffer& gbuffer, const Seeds& seeds,
+void render_paths(Grid<Rgb>& colour, Grid<float>& luminance, const GBuffer& gbuffer, const Seeds& seeds,
                   const std::vector<std::int32_t>& levels, const PackedScene& scene,
                   const FrameConstants& constants, const Execution& execution);
 
-Grid<std::uint32_t> tone_map(const Grid<Colour>& colour);
+Grid<std::uint32_t> tone_map(const Grid<Rgb>& colour);
 
 }  // namespace bn

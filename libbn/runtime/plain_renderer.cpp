@@ -96,7 +96,7 @@ class PlainRenderer final : public Renderer {
   Frame next() override {
     const FrameConstants constants = frame_constants(scene_, packed_, textures_, settings_, padded_, frame_);
     Frame result;
-    result.colour = Grid<Colour>(settings_.screen);
+    result.colour = Grid<Rgb>(settings_.screen);
     render_gbuffer(gbuffer_, packed_, constants, execution_);
     const Extent tile = textures_.mask.size();
     if (frame_ > 0 && (settings_.method == Method::retarget || settings_.method == Method::reproject)) {

@@ -30,7 +30,7 @@ Vector cross(Vector a, Vector b) {
 }
 
 vec3 rounded(Vector v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
-vec3 words(Colour c) { return {c.r, c.g, c.b}; }
+vec3 words(Rgb c) { return {c.r, c.g, c.b}; }
 
 [[noreturn]] void refuse(const Scene& scene, std::string what, std::string limit = "") {
   throw Error({.code = ErrorCode::invalid_input,
@@ -111,7 +111,7 @@ void check_scene(const Scene& scene) {
   if (count == 0 || count > kMaxPrimitives) {
     refuse(scene, fmt::format("{} primitives", count), fmt::format("1..{}", kMaxPrimitives));
   }
-  const auto check_colour = [&](Colour c, float high, std::string_view what) {
+  const auto check_colour = [&](Rgb c, float high, std::string_view what) {
     for (const float v : {c.r, c.g, c.b}) {
       if (!(v >= 0.0f && v <= high)) refuse(scene, fmt::format("{} {}", what, v), fmt::format("0..{}", high));
     }
@@ -130,10 +130,10 @@ void check_scene(const Scene& scene) {
     }
   }
   std::int64_t texels = 0;
-  for (const Grid<Colour>& image : scene.images) {
+  for (const Grid<Rgb>& image : scene.images) {
     texels += image.size().area();
     if (image.count() == 0) refuse(scene, "an empty image");
-    for (const Colour& texel : image) check_colour(texel, 1.0f, "texel");
+    for (const Rgb& texel : image) check_colour(texel, 1.0f, "texel");
   }
   if (texels > kMaxTexels) refuse(scene, fmt::format("{} texels", texels), fmt::format("0..{}", kMaxTexels));
   for (const Material& material : scene.materials) {
@@ -159,7 +159,7 @@ void check_scene(const Scene& scene) {
     if (!finite(sphere.centre) || !(sphere.radius > 0.0) || !std::isfinite(sphere.radius)) {
       refuse(scene, "a sphere without centre or radius");
     }
-    const Colour e = scene.materials[static_cast<std::size_t>(sphere.material)].emission;
+    const Rgb e = scene.materials[static_cast<std::size_t>(sphere.material)].emission;
     if (e.r + e.g + e.b > 0.0f) refuse(scene, "a sphere emits light", "rectangles only");
     if (scene.materials[static_cast<std::size_t>(sphere.material)].image >= 0)
       refuse(scene, "an image on a sphere", "rectangles only");
@@ -189,7 +189,7 @@ PackedScene pack_scene(const Scene& scene) {
     packed.words.emplace_back(rounded(rectangle.edge_u), static_cast<float>(rectangle.material));
     packed.words.emplace_back(rounded(rectangle.edge_v), 0.0f);
     packed.words.emplace_back(rounded(normal * (1.0 / area)), static_cast<float>(area));
-    const Colour emission = scene.materials[static_cast<std::size_t>(rectangle.material)].emission;
+    const Rgb emission = scene.materials[static_cast<std::size_t>(rectangle.material)].emission;
     if (emission.r + emission.g + emission.b > 0.0f) lights.push_back(static_cast<float>(packed.primitives));
     ++packed.primitives;
   }
@@ -203,7 +203,7 @@ PackedScene pack_scene(const Scene& scene) {
   // Indices are stored as floats, which hold integers up to 2^24: kMaxTexels and what precedes stays below.
   std::vector<float> first_texel;
   std::size_t next = packed.words.size() + 3 * scene.materials.size() + lights.size();
-  for (const Grid<Colour>& image : scene.images) {
+  for (const Grid<Rgb>& image : scene.images) {
     first_texel.push_back(static_cast<float>(next));
     next += image.count();
   }
@@ -222,8 +222,8 @@ PackedScene pack_scene(const Scene& scene) {
   }
   for (const float light : lights) packed.words.emplace_back(light, 0.0f, 0.0f, 0.0f);
   packed.lights = static_cast<int>(lights.size());
-  for (const Grid<Colour>& image : scene.images) {
-    for (const Colour& texel : image) packed.words.emplace_back(words(texel), 0.0f);
+  for (const Grid<Rgb>& image : scene.images) {
+    for (const Rgb& texel : image) packed.words.emplace_back(words(texel), 0.0f);
   }
   return packed;
 }

@@ -156,7 +156,7 @@ class Reader {
     return {v[0], v[1], v[2]};
   }
 
-  Colour colour(const toml::table& table, std::string_view key) const {
+  Rgb colour(const toml::table& table, std::string_view key) const {
     const auto v = numbers(table, key, 3);
     return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
   }
@@ -192,7 +192,7 @@ class Reader {
 
   /// An image beside the scene's file, as reflectances: 8 and 16 bits as sRGB (IEC 61966-2-1), floats as they
   /// are.
-  Grid<Colour> read_albedo(const toml::node& node, const std::string& name) const {
+  Grid<Rgb> read_albedo(const toml::node& node, const std::string& name) const {
     Image image;
     try {
       image = read_image(std::filesystem::path(where_).parent_path() / name).image;
@@ -218,7 +218,7 @@ class Reader {
       return static_cast<float>(shown <= 0.04045 ? shown / 12.92 : std::pow((shown + 0.055) / 1.055, 2.4));
     };
     const std::size_t channels = static_cast<std::size_t>(image.channels);
-    Grid<Colour> albedo(image.size);
+    Grid<Rgb> albedo(image.size);
     for (std::size_t i = 0; i < albedo.count(); ++i) {
       const auto channel = [&](std::size_t c) { return value(i * channels + (channels < 3 ? 0 : c)); };
       albedo[i] = {channel(0), channel(1), channel(2)};

@@ -58,7 +58,7 @@ Grid<T> crop(const Grid<T>& picture, PixelRect rect) {
   return part;
 }
 
-Grid<float> luminance_of(const Grid<Colour>& colour);
+Grid<float> luminance_of(const Grid<Rgb>& colour);
 Grid<float> difference(const Grid<float>& a, const Grid<float>& b);
 
 /// What changed between two frames' errors where the picture moved by whole pixels of `motion`: each pixel

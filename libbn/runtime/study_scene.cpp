@@ -166,7 +166,7 @@ std::optional<PixelRect> region_at(const Scene& scene, const Region& region, Ext
   return PixelRect{left, top, right - left, bottom - top};
 }
 
-Grid<float> luminance_of(const Grid<Colour>& colour) {
+Grid<float> luminance_of(const Grid<Rgb>& colour) {
   Grid<float> result(colour.size());
   for (std::size_t i = 0; i < result.count(); ++i) {
     result[i] = 0.2126f * colour[i].r + 0.7152f * colour[i].g + 0.0722f * colour[i].b;

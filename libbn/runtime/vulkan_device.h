@@ -10,7 +10,6 @@
 #include <vector>
 #include <vulkan/vulkan_raii.hpp>
 
-
 namespace bn {
 
 class Pass;

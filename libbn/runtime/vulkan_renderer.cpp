@@ -63,7 +63,7 @@ class VulkanRenderer final : public Renderer {
     const bool reproject = settings_.method == Method::reproject;
     const bool retarget = settings_.method == Method::retarget || reproject;
     Frame result;
-    result.colour = Grid<Colour>(screen);
+    result.colour = Grid<Rgb>(screen);
     const int tiles_down = (screen.height + 7) / 8;
     device_->run([&](const vk::raii::CommandBuffer& commands) {
       commands.updateBuffer<FrameConstants>(*constants_.buffer, 0, constants);

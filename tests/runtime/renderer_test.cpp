@@ -38,7 +38,7 @@ const TemporalTextures& shifting_textures() {
   return textures;
 }
 
-std::size_t different(const Grid<Colour>& a, const Grid<Colour>& b) {
+std::size_t different(const Grid<Rgb>& a, const Grid<Rgb>& b) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < a.count(); ++i) {
     using Bits = std::array<std::uint32_t, 3>;
@@ -106,7 +106,7 @@ TEST(Renderer, AnImageStandsUpright) {
       make_plain_renderer(picture_scene(), shifting_textures(), {.screen = {32, 32}, .bounces = 1});
   const Frame frame = renderer->next();
   const auto shows = [&](int x, int y, float r, float g, float b) {
-    const Colour colour = frame.colour(x, y);
+    const Rgb colour = frame.colour(x, y);
     EXPECT_NEAR(colour.r, r, 1e-5) << x << ", " << y;
     EXPECT_NEAR(colour.g, g, 1e-5) << x << ", " << y;
     EXPECT_NEAR(colour.b, b, 1e-5) << x << ", " << y;
@@ -140,7 +140,7 @@ TEST(Renderer, TheFlatSceneReachesTheFiguresOfTheModel) {
         make_vulkan_renderer(device(), load_scene("wall"), test::proven_textures(),
                              {.screen = {256, 256}, .method = method, .bounces = 1, .block = block});
     for (int frame = 0; frame < 8; ++frame) renderer->next();
-    const Grid<Colour> colour = renderer->next().colour;
+    const Grid<Rgb> colour = renderer->next().colour;
     Grid<float> shown(colour.size());
     for (std::size_t i = 0; i < shown.count(); ++i) shown[i] = colour[i].r;  // all is grey
     return 10.0 * std::log10(low_frequency_power(shown, 0.1));
@@ -156,7 +156,7 @@ double mean_radiance(const Scene& scene, int bounces, int frames) {
       scene, shifting_textures(), {.screen = {32, 32}, .method = Method::white, .bounces = bounces});
   double sum = 0.0;
   for (int frame = 0; frame < frames; ++frame) {
-    for (const Colour& colour : renderer->next().colour) sum += colour.r;
+    for (const Rgb& colour : renderer->next().colour) sum += colour.r;
   }
   return sum / (frames * 32.0 * 32.0);
 }

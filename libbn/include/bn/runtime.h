@@ -164,9 +164,9 @@ Grid<Offset> swapped_tile(const Grid<std::int32_t>& levels, Offset step, int rad
 
 // --- scenes --------------------------------------------------------------------------------------
 
-struct Colour {
+struct Rgb {
   float r = 0.0f, g = 0.0f, b = 0.0f;
-  friend bool operator==(const Colour&, const Colour&) = default;
+  friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
 struct Vector {
@@ -181,13 +181,13 @@ inline constexpr int kMaxPrimitives = 1024;
 inline constexpr std::int64_t kMaxTexels = 4'194'304;
 
 struct Material {
-  Colour albedo{0.5f, 0.5f, 0.5f};  ///< 0..1; reflectance at normal incidence where glossy
-  Colour emission;                  ///< 0 or more; rectangles only
-  float roughness = -1.0f;          ///< below 0: diffuse; 0.05..1: glossy, GGX with alpha = roughness^2
-  int checker_u = 0;                ///< cells along a rectangle's edges, 0 (no pattern) .. 1023
+  Rgb albedo{0.5f, 0.5f, 0.5f};  ///< 0..1; reflectance at normal incidence where glossy
+  Rgb emission;                  ///< 0 or more; rectangles only
+  float roughness = -1.0f;       ///< below 0: diffuse; 0.05..1: glossy, GGX with alpha = roughness^2
+  int checker_u = 0;             ///< cells along a rectangle's edges, 0 (no pattern) .. 1023
   int checker_v = 0;
-  Colour checker_albedo;  ///< of every other cell
-  int image = -1;         ///< albedo from Scene::images[image]; rectangles only, no checker with it
+  Rgb checker_albedo;  ///< of every other cell
+  int image = -1;      ///< albedo from Scene::images[image]; rectangles only, no checker with it
 };
 
 struct Rectangle {
@@ -214,7 +214,7 @@ struct Region {
 
 struct Scene {
   std::string name;
-  Colour sky;
+  Rgb sky;
   double fov_degrees = 45.0;      ///< vertical, 1..150
   std::vector<CameraKey> camera;  ///< at least one, frames rising; straight lines between keys
   double pan_x_px = 0.0;          ///< moves the camera each frame, in pixels at the looked-at point
@@ -224,7 +224,7 @@ struct Scene {
   std::vector<Sphere> spheres;
   std::vector<Region> regions;
   /// Albedo textures, linear, 0..1: upright where edge_u goes right and edge_v up. The nearest texel counts.
-  std::vector<Grid<Colour>> images = {};
+  std::vector<Grid<Rgb>> images = {};
 };
 
 /// The scenes that come with libbn, by name.
@@ -274,7 +274,7 @@ struct PassTime {
 };
 
 struct Frame {
-  Grid<Colour> colour;        ///< linear radiance
+  Grid<Rgb> colour;           ///< linear radiance
   Grid<std::uint32_t> shown;  ///< tone mapped, bytes R, G, B, 255 from low to high
   Seeds seeds;                ///< as the frame was traced with
   Offset motion;              ///< that the seeds were carried by before this frame
