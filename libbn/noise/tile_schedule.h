@@ -9,7 +9,7 @@
 #include "noise/energy_field.h"
 #include "noise/fill_tile.h"
 
-namespace bn {
+namespace bn::noise {
 
 /// Hands out visits to the tiles that cover a field, again and again. Two tiles that are out at once are
 /// out of each other's reach. Thread safe.
@@ -49,4 +49,4 @@ class TileSchedule {
   std::condition_variable changed_;
 };
 
-}  // namespace bn
+}  // namespace bn::noise
