@@ -9,6 +9,7 @@
 #include "bn/error.h"
 
 namespace bn {
+namespace retarget {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x323070636c6e6e61;     // "annlcp02"
@@ -243,7 +244,10 @@ std::vector<std::string> decode_set_checkpoint(std::string_view bytes, std::uint
   return result;
 }
 
+}  // namespace retarget
+
 std::int64_t checkpoint_proposals(std::string_view checkpoint) {
+  using namespace retarget;
   const bool of_set = Reader(checkpoint).take() == kSetMagic;
   Reader reader = whole(checkpoint, of_set ? kSetMagic : kMagic);
   reader.take();

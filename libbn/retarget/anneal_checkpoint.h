@@ -20,7 +20,7 @@
 #include "retarget/anneal_instance.h"
 #include "retarget/cooling.h"
 
-namespace bn {
+namespace bn::retarget {
 
 struct ChainRecord {
   Cooling::Progress cooling;
@@ -54,4 +54,4 @@ std::string encode_set_checkpoint(std::uint64_t fingerprint, std::int64_t propos
 std::vector<std::string> decode_set_checkpoint(std::string_view bytes, std::uint64_t fingerprint,
                                                std::size_t variants);
 
-}  // namespace bn
+}  // namespace bn::retarget

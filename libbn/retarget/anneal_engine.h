@@ -9,7 +9,7 @@
 
 #include "retarget/anneal_instance.h"
 
-namespace bn {
+namespace bn::retarget {
 
 /// What happened in some rounds. Sums, so that bands and rounds can be added in any order.
 struct RoundCounts {
@@ -74,4 +74,4 @@ std::vector<std::int64_t> sample_rises(const AnnealInstance& instance);
 std::unique_ptr<AnnealEngine> make_sweep_engine(const AnnealInstance& instance, std::uint64_t seed,
                                                 std::uint32_t chain);
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -14,6 +14,7 @@
 #include "retarget/anneal_checkpoint.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 using Clock = std::chrono::steady_clock;

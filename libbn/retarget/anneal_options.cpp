@@ -11,6 +11,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+namespace retarget {
 namespace {
 
 /// By bisection of the exponent; IEEE operations in a written order give the same bits everywhere.
@@ -124,6 +125,10 @@ TemperatureRange temperatures_of(const AnnealInstance& instance, const AnnealOpt
   }
   return range;
 }
+
+}  // namespace retarget
+
+using namespace retarget;
 
 TemperatureRange automatic_temperatures(const AnnealProblem& problem) {
   return automatic_range(AnnealInstance(problem, 0));

@@ -5,7 +5,7 @@
 
 #include "retarget/anneal_instance.h"
 
-namespace bn {
+namespace bn::retarget {
 
 /// The share of a run's budget that is spent at temperature 0 at its end is 1 in this many.
 inline constexpr std::int64_t kQuenchShare = 64;
@@ -18,4 +18,4 @@ TemperatureRange temperatures_of(const AnnealInstance& instance, const AnnealOpt
 CoolingSchedule schedule_of(const AnnealOptions& options, const TemperatureRange& range,
                             std::int64_t proposals);
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -21,6 +21,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 double cpu_seconds() {

@@ -19,6 +19,7 @@
 #include "retarget/anneal_options.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 using Clock = std::chrono::steady_clock;

@@ -23,7 +23,7 @@
 #include "core/progress.h"
 #include "retarget/layout.h"
 
-namespace bn {
+namespace bn::retarget {
 
 inline constexpr std::int32_t kUnassigned = -1;
 
@@ -122,4 +122,4 @@ enum class PriceWidth { automatic, bits32, bits64 };
 RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                               const Execution& execution, PriceWidth width);
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -27,7 +27,7 @@
 #include "retarget/window-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::retarget {
 namespace HWY_NAMESPACE {
 
 template <class T, bool kSquare>
@@ -145,11 +145,11 @@ AuctionLevel Auction64(Market<std::int64_t>& market, std::int64_t epsilon, const
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::retarget
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::retarget {
 
 HWY_EXPORT(Auction32);
 HWY_EXPORT(Auction64);
@@ -166,5 +166,5 @@ AuctionLevel run_auction(Market<std::int64_t>& market, std::int64_t epsilon, con
   return HWY_DYNAMIC_DISPATCH(Auction64)(market, epsilon, execution, progress);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget
 #endif

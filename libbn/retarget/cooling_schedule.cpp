@@ -175,6 +175,8 @@ CoolingSchedule make_schedule(std::string_view name, double start, double end, s
   return schedule;
 }
 
+namespace retarget {
+
 Cooling::Cooling(const CoolingSchedule& schedule) : schedule_(schedule) { check_schedule(schedule_); }
 
 double Cooling::temperature() const {
@@ -212,5 +214,7 @@ bool Cooling::frozen() const {
   const auto* stages = std::get_if<KirkpatrickCooling>(&schedule_);
   return stages != nullptr && progress_.frozen_stages >= stages->frozen_stages;
 }
+
+}  // namespace retarget
 
 }  // namespace bn

@@ -12,7 +12,7 @@
 
 #include "retarget/problem.h"
 
-namespace bn {
+namespace bn::retarget {
 
 class PaddedLayout {
  public:
@@ -96,4 +96,4 @@ class PaddedLayout {
   std::uint64_t reciprocal_ = 0;  // ceil(2^64 / stride)
 };
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -1,6 +1,6 @@
 #include "retarget/assignment.h"
 
-namespace bn {
+namespace bn::retarget {
 
 template <class T>
 Market<T>::Market(const Grid<std::int32_t>& levels, const RetargetOptions& options)
@@ -78,4 +78,4 @@ Grid<Offset> Market<T>::moves(const RetargetOptions& options) const {
 template struct Market<std::int32_t>;
 template struct Market<std::int64_t>;
 
-}  // namespace bn
+}  // namespace bn::retarget

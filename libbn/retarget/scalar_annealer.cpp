@@ -17,7 +17,7 @@
 #include "retarget/filtered_energy.h"
 #include "retarget/metropolis.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
 
 /// Stream of random numbers; chains count up from it.
@@ -302,4 +302,4 @@ std::unique_ptr<AnnealEngine> make_scalar_engine(const AnnealInstance& instance,
   return std::make_unique<ScalarEngine<PixelSumEnergy>>(instance, seed, chain);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -27,7 +27,7 @@
 #include "retarget/window-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::retarget {
 namespace HWY_NAMESPACE {
 
 template <class T, bool kSquare>
@@ -233,11 +233,11 @@ Outcome Complete64(Market<std::int64_t>& market, const Execution& execution) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::retarget
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::retarget {
 
 HWY_EXPORT(Complete32);
 HWY_EXPORT(Complete64);
@@ -252,5 +252,5 @@ Outcome complete_by_shortest_paths(Market<std::int64_t>& market, const Execution
   return HWY_DYNAMIC_DISPATCH(Complete64)(market, execution);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget
 #endif

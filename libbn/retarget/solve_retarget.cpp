@@ -9,6 +9,7 @@
 #include "retarget/assignment.h"
 
 namespace bn {
+namespace retarget {
 namespace {
 
 /// Where the auction starts: a quarter of the usual distance between a level and the nearest one in its
@@ -112,9 +113,11 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
   return *std::move(tile);
 }
 
+}  // namespace retarget
+
 RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                             const Execution& execution) {
-  return solve_with_width(levels, options, execution, PriceWidth::automatic);
+  return retarget::solve_with_width(levels, options, execution, retarget::PriceWidth::automatic);
 }
 
 }  // namespace bn

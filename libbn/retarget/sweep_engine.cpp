@@ -6,7 +6,7 @@
 
 #include "bn/random.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
 
 /// Streams of random numbers; chains count up from them, so they lie far apart.
@@ -275,4 +275,4 @@ std::unique_ptr<AnnealEngine> make_engine(const AnnealInstance& instance, std::u
                                           : make_sweep_engine(instance, seed, chain);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

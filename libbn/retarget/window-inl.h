@@ -14,7 +14,7 @@
 #include "retarget/assignment.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::retarget {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -139,7 +139,7 @@ void free_discontent_rows(const Window<T, kSquare>& window, Market<T>& market, T
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::retarget
 HWY_AFTER_NAMESPACE();
 
 #endif  // BN_RETARGET_WINDOW_INL_H_

@@ -5,6 +5,7 @@
 #include "retarget/anneal_checkpoint.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 constexpr const char* kRecipe = R"(version = 1

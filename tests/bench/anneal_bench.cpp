@@ -7,6 +7,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 /// A permutation of grey levels without structure: annealing does not care for more.

@@ -8,6 +8,7 @@
 #include "retarget/sweep.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 TEST(Metropolis, ThresholdsFollowTheExponential) {

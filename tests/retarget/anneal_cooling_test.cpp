@@ -13,6 +13,7 @@
 #include "retarget/cooling.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

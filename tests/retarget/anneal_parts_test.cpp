@@ -10,6 +10,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 struct Setting {

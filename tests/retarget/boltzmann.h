@@ -15,6 +15,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 
 /// Chi-square's value that chance exceeds once in 1e5 (Wilson and Hilferty 1931).
 inline double critical_chi_square(int degrees) {

@@ -11,6 +11,7 @@
 #include "retarget/assignment.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 const Execution kOneThread{.threads = 1};
