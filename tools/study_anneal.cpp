@@ -12,7 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"

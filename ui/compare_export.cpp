@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "bn/report.h"
 #include "bn/texture.h"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "retarget/problem.h"
 
 namespace bn::retarget {

@@ -14,8 +14,8 @@
 #include <memory>
 #include <tuple>
 
-#include "bn/anneal.h"
 #include "bn/random.h"
+#include "bn/retarget_anneal.h"
 #include "core/progress.h"
 #include "core/refuse.h"
 #include "retarget/anneal_engine.h"
@@ -103,14 +103,13 @@ AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOpti
              std::tie(run.schedule, run.radius, run.proposals, run.seed);
     });
   };
-  const auto make = [&](AnnealStudyRun run, std::int64_t lower_bound) {
+  const auto make = [&](AnnealStudyRun run) {
     AnnealOptions one;
     one.schedule = run.schedule;
     one.proposals = run.proposals;
     one.seed = run.seed;
     one.start = options.start;
     one.end_temperature = options.end_temperature;
-    one.lower_bound = lower_bound;
     const double start = cpu_seconds();
     run.energy = anneal_retarget(problem, one, alone).tile.energy;
     run.cpu_seconds = cpu_seconds() - start;
@@ -138,7 +137,7 @@ AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOpti
                                .radius = radius,
                                .proposals = budget,
                                .seed = static_cast<std::uint64_t>(seed)};
-            if (!is_known(run)) make(std::move(run), exact.lower_bound);
+            if (!is_known(run)) make(std::move(run));
             progress.advance(1);
           }
           save();
@@ -171,7 +170,7 @@ AnnealProblem grey_problem(int side) {
 /// An engine at one temperature, in equilibrium from a warm-up on.
 class Stretch {
  public:
-  Stretch(std::unique_ptr<AnnealEngine> engine, double temperature, int threads)
+  Stretch(std::unique_ptr<RetargetEngine> engine, double temperature, int threads)
       : engine_(std::move(engine)), temperature_(temperature), execution_{.threads = threads} {
     for (int i = 0; i < 10; ++i) engine_->round(round_++, kSweeps, 4.0 * temperature, execution_);
     for (int i = 0; i < 10; ++i) engine_->round(round_++, kSweeps, temperature, execution_);
@@ -187,7 +186,7 @@ class Stretch {
 
  private:
   static constexpr int kSweeps = 64;
-  std::unique_ptr<AnnealEngine> engine_;
+  std::unique_ptr<RetargetEngine> engine_;
   double temperature_;
   Execution execution_;
   std::int64_t round_ = 0;
@@ -275,7 +274,7 @@ AnnealCosts study_anneal_costs(const AnnealProblem& problem,
   run.proposals = 200'000'000;
   Annealing stepped(problem, run, alone);
   for (int i = 0; i < kStretches; ++i) {
-    stepped.beat();
+    stepped.advance();
     const auto start = Clock::now();
     const std::string bytes = stepped.checkpoint();
     save(bytes);

@@ -34,10 +34,16 @@
 #include <cstdint>
 #include <cstring>
 
+#include "anneal/metropolis.h"
 #include "retarget/anneal_engine.h"
-#include "retarget/metropolis.h"
 
 namespace bn::retarget {
+
+using anneal::kLeastMinusLog;
+using anneal::kLn2Single;
+using anneal::kLogCoefficients;
+using anneal::metropolis_threshold;
+using anneal::single_temperature;
 
 /// How a displacement k becomes a byte per axis. On a torus too small to tell k from its other names (up to
 /// four radii) bytes are taken modulo the side, else modulo 256.

@@ -2,8 +2,8 @@
 // and whatever else is refused.
 #include <gtest/gtest.h>
 
-#include "bn/anneal.h"
 #include "bn/error.h"
+#include "bn/retarget_anneal.h"
 #include "reference.h"
 
 namespace bn {

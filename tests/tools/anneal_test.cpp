@@ -9,7 +9,7 @@
 #include <csignal>
 #include <thread>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "process.h"
 #include "textures.h"
 

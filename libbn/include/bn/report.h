@@ -1,4 +1,4 @@
-// bn/report.h - floor 2: one page that shows textures, and how good they are.
+// bn/report.h - floor 3: one page that shows textures, and how good they are.
 //
 // The page is one HTML file without network, script or clock: pictures are embedded PNG, plots are inline SVG
 // drawn by gnuplot. Equal files give equal bytes with one version of gnuplot and of the libraries.

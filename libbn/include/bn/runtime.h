@@ -1,4 +1,4 @@
-// bn/runtime.h - floor 2: the temporal algorithm at work.
+// bn/runtime.h - floor 3: the temporal algorithm at work.
 //
 // A renderer whose pixels draw all their random numbers from one seed each moves those seeds between
 // frames, so that the error of the picture becomes blue noise:

@@ -1,4 +1,4 @@
-// bn/spectrum.h - floor 1: what is in a texture, frequency by frequency, and whether it is what it claims.
+// bn/spectrum.h - floor 2: what is in a texture, frequency by frequency, and whether it is what it claims.
 //
 // Frequencies are in cycles/pixel along x and y and cycles/frame along z: fx = kx/W for the integer
 // index kx, taken in -1/2..1/2; W, H and D may differ. Power is |F|^2 / (N * variance), so that white

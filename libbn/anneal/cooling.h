@@ -6,7 +6,7 @@
 
 #include "bn/anneal.h"
 
-namespace bn::retarget {
+namespace bn::anneal {
 
 class Cooling {
  public:
@@ -39,4 +39,4 @@ class Cooling {
   Progress progress_;
 };
 
-}  // namespace bn::retarget
+}  // namespace bn::anneal

@@ -8,12 +8,12 @@
 #include <limits>
 #include <string>
 
+#include "anneal/cooling.h"
 #include "bn/anneal.h"
 #include "bn/error.h"
-#include "retarget/cooling.h"
 
 namespace bn {
-using namespace retarget;
+using namespace anneal;
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

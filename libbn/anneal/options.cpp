@@ -1,5 +1,5 @@
-// What options of an annealing are out of range whatever the problem; apart from the engines, so that whoever
-// only reads recipes needs none of them.
+// What options of an annealing are out of range whatever the problem. It stands apart from the driver, so
+// that a program that only reads recipes links no driver.
 
 #include <fmt/format.h>
 
@@ -39,18 +39,12 @@ void check_anneal_options(const AnnealOptions& options) {
   if (!(options.checkpoint.interval_s >= 0.0 && options.checkpoint.interval_s <= 3600.0)) {
     refuse("checkpoint interval", fmt::format("{} s", options.checkpoint.interval_s), "0..3600 s");
   }
-  if (options.custom) {
-    check_schedule(*options.custom);
-    if (tempering)
-      refuse("schedule", "a custom one with tempering", "tempering keeps each chain's temperature");
-  } else {
-    make_schedule(options.schedule, 1.0, 1.0, 1, options.parameters);  // for names and parameters
-    const bool decided = options.schedule != "kirkpatrick" && options.parameters.factor;
-    if ((decided || options.parameters.hajek_c) && options.end_temperature > 0.0) {
-      refuse("end_temperature",
-             fmt::format("{} beside {}", options.end_temperature, decided ? "a factor" : "Hajek's constant"),
-             "one of the two, as each decides where the schedule ends");
-    }
+  make_schedule(options.schedule, 1.0, 1.0, 1, options.parameters);  // for names and parameters
+  const bool decided = options.schedule != "kirkpatrick" && options.parameters.factor;
+  if ((decided || options.parameters.hajek_c) && options.end_temperature > 0.0) {
+    refuse("end_temperature",
+           fmt::format("{} beside {}", options.end_temperature, decided ? "a factor" : "Hajek's constant"),
+           "one of the two, as each decides where the schedule ends");
   }
 }
 

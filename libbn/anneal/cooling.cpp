@@ -2,7 +2,7 @@
 // comparable. Powers go through reproducible_exp and reproducible_log: a temperature that differed in its
 // last bit between C libraries would move an acceptance threshold and with it a baked texture.
 
-#include "retarget/cooling.h"
+#include "anneal/cooling.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -175,7 +175,7 @@ CoolingSchedule make_schedule(std::string_view name, double start, double end, s
   return schedule;
 }
 
-namespace retarget {
+namespace anneal {
 
 Cooling::Cooling(const CoolingSchedule& schedule) : schedule_(schedule) { check_schedule(schedule_); }
 
@@ -215,6 +215,6 @@ bool Cooling::frozen() const {
   return stages != nullptr && progress_.frozen_stages >= stages->frozen_stages;
 }
 
-}  // namespace retarget
+}  // namespace anneal
 
 }  // namespace bn

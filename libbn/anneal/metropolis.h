@@ -15,7 +15,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace bn::retarget {
+namespace bn::anneal {
 
 inline constexpr float kLogCoefficients[6] = {0.999901645f,  -0.497875086f, 0.317649113f,
                                               -0.193761065f, 0.0855700444f, -0.0183389048f};
@@ -47,4 +47,4 @@ inline std::int64_t metropolis_threshold(std::uint32_t bits, float temperature) 
   return static_cast<std::int64_t>(std::min(minus_log(bits) * temperature, 0x1p62f));
 }
 
-}  // namespace bn::retarget
+}  // namespace bn::anneal
