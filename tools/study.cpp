@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bn/spectrum.h"
+#include "bn_study/fft.h"
 #include "tools/verb.h"
 
 namespace bn::tools {
@@ -16,8 +16,8 @@ using Json = nlohmann::ordered_json;
 std::string markdown(const std::vector<FftStudyRow>& rows) {
   std::string text = "| side | transform | type | ms | relative error |\n|---:|---|---|---:|---:|\n";
   for (const auto& row : rows) {
-    text += fmt::format("| {} | {} | {} | {:.3g} | {:.2g} |\n", row.side, row.method, row.type, row.seconds * 1e3,
-                        row.relative_error);
+    text += fmt::format("| {} | {} | {} | {:.3g} | {:.2g} |\n", row.side, row.method, row.type,
+                        row.seconds * 1e3, row.relative_error);
   }
   return text;
 }
@@ -31,8 +31,10 @@ Verb study_fft_verb() {
   verb.summary = "Measure speed against error of the Fourier transforms.";
   verb.examples = {{"bn study fft", "the table of docs/spectrum.md, about a minute"}};
   verb.details =
-      "Transforms pictures of white noise on one thread, in float and double, by bn and by OpenImageIO, and holds the "
-      "results against sums in long double. Times are processor time, the median of repeated runs; errors are root "
+      "Transforms pictures of white noise on one thread, in float and double, by bn and by OpenImageIO, and "
+      "holds the "
+      "results against sums in long double. Times are processor time, the median of repeated runs; errors "
+      "are root "
       "mean square, relative to the spectrum's. 1021 is a prime.";
   verb.arguments.flag("--json", *json, true, "Print JSON.");
   verb.run = [json](Session& session) {

@@ -6,7 +6,7 @@
 
 #include "bn/error.h"
 #include "bn/report.h"
-#include "bn/runtime.h"
+#include "bn_study/validation.h"
 #include "tools/verb.h"
 
 namespace bn::tools {
@@ -62,7 +62,7 @@ ValueKind<std::vector<Method>> method_list() {
 
 void run(Settings& settings, Session& session) {
   StudyOptions& study = settings.study;
-  study.scenes = settings.scene == "all" ? shipped_scenes() : std::vector<std::string>{settings.scene};
+  study.scenes = settings.scene == "all" ? shipped_scene_names() : std::vector<std::string>{settings.scene};
   for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
   if (!settings.methods.empty()) {
     study.methods = settings.methods;
@@ -121,7 +121,7 @@ Verb validate_verb() {
       "for the plain renderer without Vulkan.";
   verb.arguments.positional(
       "SCENE", settings->scene, any_text("SCENE"),
-      "wall, room, poster, bars, slow-pan, fast-pan, cut, all of them by all, or a TOML file.");
+      fmt::format("{}, all of them by all, or a TOML file.", fmt::join(shipped_scene_names(), ", ")));
   verb.arguments.option(
       "--method", settings->methods, method_list(),
       "Some methods, and white noise to measure them against; all adds other block sizes and "

@@ -18,11 +18,11 @@
 #include <variant>
 #include <vector>
 
-#include "bn/retarget_anneal.h"
 #include "bn/execution.h"
 #include "bn/grid.h"
 #include "bn/noise.h"
 #include "bn/retarget.h"
+#include "bn/retarget_anneal.h"
 #include "bn/texture.h"
 
 namespace bn {

@@ -81,9 +81,7 @@ class Grid {
   }
   /// The values of slice z, 0..depth-1.
   std::span<T> slice(int z) { return std::span(values_).subspan(index(0, 0, z), slice_count()); }
-  std::span<const T> slice(int z) const {
-    return std::span(values_).subspan(index(0, 0, z), slice_count());
-  }
+  std::span<const T> slice(int z) const { return std::span(values_).subspan(index(0, 0, z), slice_count()); }
 
   T* data() { return values_.data(); }
   const T* data() const { return values_.data(); }

@@ -50,7 +50,7 @@ inline constexpr int kMaxReportFiles = 20000;
 /// execution.threads; any number gives the same bytes.
 ReportSummary write_report(const ReportOptions& options, const Execution& execution = {});
 
-/// The page of a validation study (bn/runtime.h, run_study()), made of the files in its folder: tables,
+/// The page of a validation study (`bn validate`), made of the files in its folder: tables,
 /// curves and pictures of each scene. Without gnuplot it lacks the curves and says so. Errors: io,
 /// invalid_input (no study there), cancelled.
 void write_study_report(const std::filesystem::path& study, const std::filesystem::path& out,

@@ -60,7 +60,7 @@ std::vector<T> inverse_transform(HalfSpectrum<T> spectrum, const Execution& exec
 /// (Parseval). A constant texture has P = 0 everywhere.
 struct PowerSpectrum {
   Shape shape;
-  std::vector<double> half;  ///< index (kz * H + ky) * half_width(shape) + kx
+  std::vector<double> half;   ///< index (kz * H + ky) * half_width(shape) + kx
   std::int64_t textures = 1;  ///< how many independent periodograms were averaged
   /// The power at any integer frequency index, negative ones included.
   double at(std::int64_t kx, std::int64_t ky = 0, std::int64_t kz = 0) const;
@@ -100,7 +100,8 @@ std::vector<double> midranks(std::span<const double> values, const Execution& ex
 
 /// The binary picture of `values` at grey level 0 < level < 1: 1 where (midrank + 1/2) / N < level,
 /// else 0.
-std::vector<double> thresholded(std::span<const double> values, double level, const Execution& execution = {});
+std::vector<double> thresholded(std::span<const double> values, double level,
+                                const Execution& execution = {});
 
 /// Counts of `values` in `bins` equal parts of low..high; values outside go to the first or last one.
 std::vector<std::int64_t> histogram(std::span<const double> values, double low, double high, int bins);
@@ -115,10 +116,10 @@ double histogram_max_deviation(std::span<const std::int64_t> counts);
 /// 1988). Annulus j holds the frequencies with round(f / step) = j, step = 1/max(W, H), so each
 /// frequency but DC is in exactly one; the last reaches the corner, f = 1/sqrt(2).
 struct RadialCurve {
-  std::vector<double> frequency;     ///< j * step, cycles/pixel, from j = 1
-  std::vector<double> power;         ///< mean over the annulus; NaN where it holds no frequency
-  std::vector<double> anisotropy_db; ///< 10 log10(s^2 / mean^2); NaN where undefined (see below)
-  std::vector<std::int64_t> count;   ///< frequencies in the annulus, conjugates included
+  std::vector<double> frequency;      ///< j * step, cycles/pixel, from j = 1
+  std::vector<double> power;          ///< mean over the annulus; NaN where it holds no frequency
+  std::vector<double> anisotropy_db;  ///< 10 log10(s^2 / mean^2); NaN where undefined (see below)
+  std::vector<std::int64_t> count;    ///< frequencies in the annulus, conjugates included
 };
 
 /// s^2 is the sample variance over the independent half of the annulus: with n frequencies in n/2
@@ -131,8 +132,8 @@ RadialCurve radial_power(const PowerSpectrum& power);
 inline constexpr std::array<double, 5> kBandEdges{0.0625, 0.125, 0.1875, 0.25, 0.5};
 
 struct BandPower {
-  std::array<double, 5> mean{};          ///< NaN where a small texture has no frequency in the band
-  std::array<std::int64_t, 5> count{};   ///< frequencies in the band, conjugates included
+  std::array<double, 5> mean{};         ///< NaN where a small texture has no frequency in the band
+  std::array<std::int64_t, 5> count{};  ///< frequencies in the band, conjugates included
 };
 BandPower band_power(const PowerSpectrum& power);
 
@@ -152,22 +153,23 @@ struct FiguresOfMerit {
   Shape shape;
   std::int64_t textures = 1;
   BandPower bands;
-  double peak = 0.0;              ///< largest mean power of an annulus; see figures_of_merit()
-  double peak_frequency = 0.0;    ///< cycles/pixel
-  double anisotropy_db_mean = 0.0;  ///< over the annuli of at least 32 frequencies
-  double anisotropy_db_max = 0.0;   ///< over the same
+  double peak = 0.0;                          ///< largest mean power of an annulus; see figures_of_merit()
+  double peak_frequency = 0.0;                ///< cycles/pixel
+  double anisotropy_db_mean = 0.0;            ///< over the annuli of at least 32 frequencies
+  double anisotropy_db_max = 0.0;             ///< over the same
   std::array<double, 3> gauss_residual_db{};  ///< for kResidualSigmas
   double histogram_max_deviation = 0.0;
-  /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame, which no order of the slices changes,
+  /// Volumes only: mean power of the pixels' sequences at 0 cycles/frame, which no order of the slices
+  /// changes,
   double temporal_power_at_0 = std::numeric_limits<double>::quiet_NaN();
   /// and at 0 < f <= 1/8 cycles/frame, which tells whether the order is a good one; NaN below 8 slices.
   double temporal_power_low = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli one frequency
-/// step wide; those beyond 1/2 cycle/pixel, which the square cuts to arcs, are joined until they hold as many
-/// frequencies as the last whole one, or noise there would win. Of one texture it is high by about sqrt(2 / n), n
-/// frequencies in the annulus (docs/spectrum.md).
+/// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli one
+/// frequency step wide; those beyond 1/2 cycle/pixel, which the square cuts to arcs, are joined until they
+/// hold as many frequencies as the last whole one, or noise there would win. Of one texture it is high by
+/// about sqrt(2 / n), n frequencies in the annulus (docs/spectrum.md).
 FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max_deviation);
 
 /// The power of the ranks of `values`, and its figures. `low`..`high` is the range that the
@@ -179,11 +181,12 @@ struct Analysis {
 Analysis analyse(std::span<const double> values, Shape shape, double low, double high,
                  const Execution& execution = {});
 
-/// The centred power in grey, in decibels: `low_db` and less is 0, `high_db` and more 255; white noise is 0 dB.
+/// The centred power in grey, in decibels: `low_db` and less is 0, `high_db` and more 255; white noise is 0
+/// dB.
 Grid<std::uint8_t> log_picture(const PowerSpectrum& power, double low_db = -50.0, double high_db = 12.5);
 
-/// Lines "axis,frequency,power,anisotropy_db,count", with a header: the radial curve (axis "space"), and for a
-/// volume the curve in time after it (axis "time"). Undefined values are empty.
+/// Lines "axis,frequency,power,anisotropy_db,count", with a header: the radial curve (axis "space"), and for
+/// a volume the curve in time after it (axis "time"). Undefined values are empty.
 std::string curves_csv(const PowerSpectrum& power);
 
 /// One JSON object: bands, peak, peak_frequency, anisotropy_db_mean, anisotropy_db_max,
@@ -202,7 +205,7 @@ enum class Check {
 struct CheckFailure {
   std::string figure;  ///< its JSON name, "bands[0]"
   double value;
-  double low, high;    ///< the range it missed
+  double low, high;  ///< the range it missed
 };
 
 /// The figures outside their thresholds (check.cpp states each with its reason); empty: passed.
@@ -219,19 +222,5 @@ struct JudgedFigure {
 
 /// Every figure that check() judges, in its order.
 std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind);
-
-// --- studies -------------------------------------------------------------------------------------
-
-/// One way to transform a side x side picture of white noise, on one thread.
-struct FftStudyRow {
-  std::string method;  ///< "bn" or "OpenImageIO"
-  std::string type;    ///< "float" or "double"
-  int side;
-  double seconds;         ///< processor time, the median of repeated runs
-  double relative_error;  ///< root mean square against a long-double sum over four columns of the spectrum
-};
-
-/// Speed against error of our transforms and of OpenImageIO's (ImageBufAlgo::fft) for each side, 2..8192.
-std::vector<FftStudyRow> study_fft(const std::vector<int>& sides, const Execution& execution = {});
 
 }  // namespace bn
