@@ -79,10 +79,8 @@ void PassTimer::start(const vk::raii::CommandBuffer& commands) {
   commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *pool_, 0);
 }
 
-void PassTimer::mark(const vk::raii::CommandBuffer& commands, std::string pass,
-                     std::initializer_list<const DeviceBuffer*> buffers) {
-  passes_.push_back({.pass = std::move(pass)});
-  for (const DeviceBuffer* buffer : buffers) passes_.back().bytes += buffer->bytes;
+void PassTimer::mark(const vk::raii::CommandBuffer& commands, std::string pass, std::uint64_t bytes) {
+  passes_.push_back({.pass = std::move(pass), .milliseconds = 0.0, .bytes = bytes});
   commands.writeTimestamp(vk::PipelineStageFlagBits::eBottomOfPipe, *pool_,
                           static_cast<std::uint32_t>(passes_.size()));
 }

@@ -57,9 +57,8 @@ class PassTimer {
   explicit PassTimer(const VulkanDevice& device);
   /// Before the first pass.
   void start(const vk::raii::CommandBuffer& commands);
-  /// After each pass: the time since the last mark is `pass`'s, which reads and writes `buffers`.
-  void mark(const vk::raii::CommandBuffer& commands, std::string pass,
-            std::initializer_list<const DeviceBuffer*> buffers = {});
+  /// After each pass: the time since the last mark is `pass`'s, which reads and writes `bytes`.
+  void mark(const vk::raii::CommandBuffer& commands, std::string pass, std::uint64_t bytes = 0);
   /// Milliseconds of each pass, in order; after the commands have run.
   std::vector<PassTime> read() const;
 

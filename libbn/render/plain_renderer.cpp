@@ -1,82 +1,63 @@
-// The frame, pass by pass, on the processor. The Vulkan renderer makes the same passes in the same order.
+// The passes of a frame on the processor, and the renderer that executes their list there.
 
+#include <algorithm>
+
+#include "render/frame_passes.h"
+#include "render/plain_passes.h"
 #include "render/renderer.h"
 
-#include <fmt/format.h>
-
-#include "bn/error.h"
-#include "bn/random.h"
-#include "render/plain_passes.h"
-
 namespace bn {
-
-std::string_view name_of(Method method) {
-  switch (method) {
-    case Method::white:
-      return "white";
-    case Method::mask_still:
-      return "mask-still";
-    case Method::mask_moved:
-      return "mask-moved";
-    case Method::mask_golden:
-      return "mask-golden";
-    case Method::slices:
-      return "slices";
-    case Method::sort:
-      return "sort";
-    case Method::retarget:
-      return "retarget";
-    case Method::reproject:
-      return "reproject";
-  }
-  return "";
-}
-
 namespace render {
 
-Extent check_rendering(const Scene& scene, const TemporalTextures& textures, const RenderSettings& settings) {
-  check_scene(scene);
-  textures.check();
-  const auto refuse = [](std::string what, std::string where, std::string limit) {
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = std::move(what),
-                 .where = std::move(where),
-                 .limit = std::move(limit),
-                 .remedy = ""});
-  };
-  if (settings.screen.width > 4096 || settings.screen.height > 4096) {
-    refuse(fmt::format("{}x{}", settings.screen.width, settings.screen.height), "size", "sides of 1..4096");
-  }
-  if (settings.bounces < 1 || settings.bounces > 8) {
-    refuse(fmt::format("{} bounces", settings.bounces), "bounces", "1..8");
-  }
-  if (settings.paths < 1 || settings.paths > 64)
-    refuse(fmt::format("{} paths", settings.paths), "paths", "1..64");
-  sort_blocks(settings.block, false, 0, 0);  // refuses other sides
-  if (settings.method == Method::slices && textures.slices.empty()) refuse("no stack of masks", "slices", "");
-  if (moves_seeds(settings.method) && settings.method != Method::sort && textures.moves.empty()) {
-    refuse("no retarget tile", "textures", "");
-  }
-  return padded_extent(settings.screen, textures.mask.size());
+/// A frame in the making.
+struct PlainFrame {
+  const TemporalTextures& textures;
+  const RenderSettings& settings;
+  const Execution& execution;
+  const PackedScene& packed;
+  const std::vector<std::int32_t>& levels;
+  int number = 0;
+  FrameConstants constants;
+  Seeds& seeds;
+  GBuffer& gbuffer;
+  Grid<float> luminance;
+  Frame result;
+
+  Offset shift_at(int frame) const { return tile_shift(textures.mask.size(), textures.step, frame); }
+};
+
+namespace on_processor {
+
+void gbuffer(PlainFrame& frame) {
+  render_gbuffer(frame.gbuffer, frame.packed, frame.constants, frame.execution);
+  frame.result.motion_of_pixel = frame.gbuffer.motion;
 }
 
-bool moves_seeds(Method method) {
-  return method == Method::sort || method == Method::retarget || method == Method::reproject;
+void choose_motion(PlainFrame& frame) {
+  frame.result.motion = bn::choose_motion(frame.gbuffer.motion, frame.textures.motion_range);
 }
 
-Seeds seeds_of_sequence(Extent padded, std::uint64_t seed) {
-  constexpr std::uint32_t kSeedStream = 0x52540004u;
-  return initial_seeds(padded, static_cast<std::uint32_t>(random_bits(seed, kSeedStream, 0)));
+void retarget(PlainFrame& frame) {
+  frame.seeds = retarget_seeds(frame.seeds, frame.textures.move(frame.result.motion),
+                               frame.shift_at(frame.number - 1), frame.execution);
 }
 
-void check_seeds(const Seeds& seeds, std::uint64_t digest) {
-  if (multiset_digest(seeds) == digest) return;
-  throw Error({.code = ErrorCode::verification_failed,
-               .what = "seeds were lost or doubled",
-               .where = "the temporal passes",
-               .limit = "",
-               .remedy = "check the textures with bn verify"});
+void trace(PlainFrame& frame) {
+  frame.result.colour = Grid<Rgb>(frame.settings.screen);
+  frame.luminance = Grid<float>(frame.settings.screen);
+  render_paths(frame.result.colour, frame.luminance, frame.gbuffer, frame.seeds, frame.levels, frame.packed,
+               frame.constants, frame.execution);
 }
+
+void sort(PlainFrame& frame) {
+  const RenderSettings& settings = frame.settings;
+  sort_seeds(frame.seeds, frame.luminance, frame.textures.mask, frame.shift_at(frame.number),
+             sort_blocks(settings.block, settings.jitter, settings.seed, frame.number), frame.execution);
+}
+
+void tone_map(PlainFrame& frame) { frame.result.shown = render::tone_map(frame.result.colour); }
+
+}  // namespace on_processor
 
 namespace {
 
@@ -90,36 +71,30 @@ class PlainRenderer final : public Renderer {
         execution_(execution),
         padded_(check_rendering(scene, textures, settings)),
         packed_(pack_scene(scene)),
-        levels_(levels_to_sample(textures, settings.method)),
+        levels_(levels_to_sample(textures, settings.method.sampler)),
         seeds_(seeds_of_sequence(padded_, settings.seed)),
         digest_(multiset_digest(seeds_)),
         gbuffer_(settings.screen) {}
 
   Frame next() override {
-    const FrameConstants constants = frame_constants(scene_, packed_, textures_, settings_, padded_, frame_);
-    Frame result;
-    result.colour = Grid<Rgb>(settings_.screen);
-    render_gbuffer(gbuffer_, packed_, constants, execution_);
-    const Extent tile = textures_.mask.size();
-    if (frame_ > 0 && (settings_.method == Method::retarget || settings_.method == Method::reproject)) {
-      if (settings_.method == Method::reproject) {
-        result.motion = choose_motion(gbuffer_.motion, textures_.motion_range);
-      }
-      seeds_ = retarget_seeds(seeds_, textures_.move(result.motion),
-                              tile_shift(tile, textures_.step, frame_ - 1), execution_);
+    PlainFrame frame{.textures = textures_,
+                     .settings = settings_,
+                     .execution = execution_,
+                     .packed = packed_,
+                     .levels = levels_,
+                     .number = frame_,
+                     .constants = frame_constants(scene_, packed_, textures_, settings_, padded_, frame_),
+                     .seeds = seeds_,
+                     .gbuffer = gbuffer_,
+                     .luminance = {},
+                     .result = {}};
+    for (const FramePass& pass : passes_of(settings_.method, frame_)) {
+      pass.on_processor(frame);
+      if (pass.seeds_are_final) frame.result.seeds = seeds_;
     }
-    result.seeds = seeds_;
-    Grid<float> luminance(settings_.screen);
-    render_paths(result.colour, luminance, gbuffer_, seeds_, levels_, packed_, constants, execution_);
-    if (moves_seeds(settings_.method)) {
-      sort_seeds(seeds_, luminance, textures_.mask, tile_shift(tile, textures_.step, frame_),
-                 sort_blocks(settings_.block, settings_.jitter, settings_.seed, frame_), execution_);
-    }
-    result.shown = tone_map(result.colour);
-    result.motion_of_pixel = gbuffer_.motion;
     check_seeds(seeds_, digest_);
     ++frame_;
-    return result;
+    return std::move(frame.result);
   }
 
   std::string device() const override { return "processor"; }

@@ -8,9 +8,6 @@ namespace bn::render {
 /// Throws invalid_input unless the three fit; returns the extent of the seed image.
 Extent check_rendering(const Scene& scene, const TemporalTextures& textures, const RenderSettings& settings);
 
-/// Does the method sort?
-bool moves_seeds(Method method);
-
 /// The seeds a sequence starts with.
 Seeds seeds_of_sequence(Extent padded, std::uint64_t seed);
 

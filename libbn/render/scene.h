@@ -11,9 +11,6 @@ namespace bn::render {
 /// Throws invalid_input, naming the first thing that is wrong with `scene`.
 void check_scene(const Scene& scene);
 
-/// Is the camera at the same place, looking the same way, at both frames?
-bool same_view(const Scene& scene, int frame, int other);
-
 /// scene[] of shaders/trace.glsl, and its counts.
 struct PackedScene {
   std::vector<vec4> words;
@@ -24,7 +21,7 @@ struct PackedScene {
 PackedScene pack_scene(const Scene& scene);
 
 /// What pixels sample by a mask: the mask's levels, or those of all slices, one after the other.
-std::vector<std::int32_t> levels_to_sample(const TemporalTextures& textures, Method method);
+std::vector<std::int32_t> levels_to_sample(const TemporalTextures& textures, Sampler sampler);
 
 /// The constants of frame `frame`: counts, camera now and one frame before (at frame 0: now), and
 /// how pixels get their random numbers.

@@ -15,6 +15,7 @@
 
 #include "bn/error.h"
 #include "bn/texture.h"
+#include "render/camera.h"
 #include "render/renderer.h"
 #include "render/scene.h"
 #include "study/validation.h"

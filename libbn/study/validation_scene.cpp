@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/scene.h"
+#include "render/camera.h"
 #include "study/error_spectrum.h"
 #include "study/validation.h"
 

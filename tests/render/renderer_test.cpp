@@ -264,6 +264,9 @@ TEST(Renderer, WrongSettingsAreRefused) {
   EXPECT_TRUE(refused(shifting_textures(), {.paths = 0}));
   EXPECT_TRUE(refused({.mask = test::mask_64(), .step = {1, 1}}, {.method = Method::slices}));
   EXPECT_TRUE(refused({.mask = test::mask_64(), .step = {1, 1}}, {.method = Method::retarget}));
+  EXPECT_TRUE(refused({.mask = test::mask_64(), .step = {1, 1}},
+                      {.method = {Sampler::mask_still, SeedTransport::sort}}))
+      << "seeds that nobody samples";
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ struct TemporalTextures {
   /// (2 * motion_range + 1)^2 variants row by row, the plain one in the middle.
   std::vector<Grid<Offset>> moves = {};
   int motion_range = 0;  ///< 0..8
-  /// For Method::slices: any stack of masks of one size, levels 0..65535; frame t takes slice t mod their
+  /// For Sampler::slices: any stack of masks of one size, levels 0..65535; frame t takes slice t mod their
   /// number.
   std::vector<Grid<std::int32_t>> slices = {};
 
@@ -194,18 +194,44 @@ Scene read_scene(std::string_view toml, const std::string& where);
 
 // --- rendering -----------------------------------------------------------------------------------
 
-/// How a pixel gets its random numbers. All cost the same rays.
-enum class Method {
+/// Where a pixel takes its random numbers from. All cost the same rays.
+enum class Sampler {
   white,        ///< new random seeds each frame
+  seeds,        ///< the pixel's seed alone
   mask_still,   ///< one mask for all frames
   mask_moved,   ///< the mask moved by the step each frame
   mask_golden,  ///< the mask's levels turned by the golden ratio each frame
   slices,       ///< one slice of a stack of masks each frame
-  sort,         ///< the temporal algorithm: sort only
-  retarget,     ///< sort, and the plain retarget tile
-  reproject,    ///< sort, and the tile for the mean motion of the picture
 };
-std::string_view name_of(Method method);
+
+/// What carries the seeds of one frame to the next. Anything but `none` needs the sampler `seeds`.
+enum class SeedTransport {
+  none,       ///< each pixel keeps its seed
+  sort,       ///< sort like the mask
+  retarget,   ///< sort, and the plain retarget tile
+  reproject,  ///< sort, and the tile for the mean motion of the picture
+};
+
+/// A sampler with a transport. The eight that have names are those that a study compares.
+struct Method {
+  Sampler sampler = Sampler::seeds;
+  SeedTransport transport = SeedTransport::none;
+  friend constexpr bool operator==(const Method&, const Method&) = default;
+
+  static const Method white, mask_still, mask_moved, mask_golden, slices;
+  static const Method sort, retarget, reproject;  ///< the temporal algorithm
+};
+inline constexpr Method Method::white{Sampler::white};
+inline constexpr Method Method::mask_still{Sampler::mask_still};
+inline constexpr Method Method::mask_moved{Sampler::mask_moved};
+inline constexpr Method Method::mask_golden{Sampler::mask_golden};
+inline constexpr Method Method::slices{Sampler::slices};
+inline constexpr Method Method::sort{Sampler::seeds, SeedTransport::sort};
+inline constexpr Method Method::retarget{Sampler::seeds, SeedTransport::retarget};
+inline constexpr Method Method::reproject{Sampler::seeds, SeedTransport::reproject};
+
+/// "white", "mask-still", ... of the eight; empty for other combinations.
+std::string_view name_of(const Method& method);
 inline constexpr Method kMethods[] = {Method::white,       Method::mask_still, Method::mask_moved,
                                       Method::mask_golden, Method::slices,     Method::sort,
                                       Method::retarget,    Method::reproject};
@@ -232,7 +258,8 @@ struct Frame {
 };
 
 /// Renders frames 0, 1, 2, ... of one sequence; each call is the next frame:
-/// G-buffer, retarget, trace, sort, tone map. The multiset of seeds is checked at every frame.
+/// G-buffer, motion, retarget, trace, sort, tone map, as the method needs them. The multiset of seeds is
+/// checked at every frame.
 class Renderer {
  public:
   virtual ~Renderer() = default;
