@@ -37,11 +37,11 @@ class Window {
   using D = hn::ScalableTag<T>;
   using V = hn::Vec<D>;
 
-  explicit Window(const Market<T>& market) : market_(market) {
+  explicit Window(const AuctionState<T>& state) : state_(state) {
     const auto lanes = static_cast<int>(hn::Lanes(D()));
     std::int32_t position = 0;
-    for (const ReachRow& line : market.window) {
-      const std::int32_t origin = line.y * market.layout.stride();
+    for (const ReachRow& line : state.window) {
+      const std::int32_t origin = line.y * state.layout.stride();
       for (int x = line.x_low; x <= line.x_high; x += lanes) {
         const int columns = std::min(lanes, line.x_high - x + 1);
         runs_.push_back({origin + x, position});
@@ -59,8 +59,8 @@ class Window {
   HWY_INLINE void for_each_run(Holder who, Visit&& visit) const {
     const D d;
     const V row_level = hn::Set(d, T{who.level});
-    const std::int32_t* levels = market_.column_level.data() + who.row;
-    const T* prices = market_.price.data() + who.row;
+    const std::int32_t* levels = state_.column_level.data() + who.row;
+    const T* prices = state_.price.data() + who.row;
     const Run* runs = runs_.data();
     for (const RunGroup& group : groups_) {
       const auto columns = hn::FirstN(d, static_cast<std::size_t>(group.columns));
@@ -73,7 +73,7 @@ class Window {
 
   /// The column at a position of the window of `row`.
   std::int32_t column(std::int32_t row, std::int32_t position) const {
-    return market_.layout.home(row + shifts_[static_cast<std::size_t>(position)]);
+    return state_.layout.home(row + shifts_[static_cast<std::size_t>(position)]);
   }
 
   struct Best {
@@ -84,7 +84,7 @@ class Window {
 
   HWY_INLINE Best cheapest(Holder who) const {
     const D d;
-    const V blocked = hn::Set(d, Market<T>::kBlocked);
+    const V blocked = hn::Set(d, AuctionState<T>::kBlocked);
     V first = blocked, second = blocked, position = hn::Zero(d);
     for_each_run(who, [&](const Run& run, auto columns, V seen) HWY_ATTR {
       const V value = hn::IfThenElse(columns, seen, blocked);
@@ -113,7 +113,7 @@ class Window {
     }
   }
 
-  const Market<T>& market_;
+  const AuctionState<T>& state_;
   std::vector<Run> runs_;
   std::vector<RunGroup> groups_;
   std::vector<std::int32_t> shifts_;
@@ -122,15 +122,15 @@ class Window {
 /// With column_of up to date: frees the rows of a rectangle whose column is more than `slack` above their
 /// cheapest, and appends all free rows of the rectangle to `free_rows`, in index order.
 template <class T, bool kSquare>
-void free_discontent_rows(const Window<T, kSquare>& window, Market<T>& market, T slack, Offset origin,
+void free_discontent_rows(const Window<T, kSquare>& window, AuctionState<T>& state, T slack, Offset origin,
                           Extent size, std::vector<std::int32_t>& free_rows) {
   for (int y = origin.y; y < origin.y + size.height; ++y) {
     for (int x = origin.x; x < origin.x + size.width; ++x) {
-      const std::int32_t row = market.layout.cell(x, y);
-      std::int32_t& column = market.column_of[static_cast<std::size_t>(row)];
+      const std::int32_t row = state.layout.cell(x, y);
+      std::int32_t& column = state.column_of[static_cast<std::size_t>(row)];
       if (column != kUnassigned) {
-        if (market.paid(column) <= window.cheapest(market.as_holder(row)).least + slack) continue;
-        market.holder[static_cast<std::size_t>(column)].row = kUnassigned;
+        if (state.paid(column) <= window.cheapest(state.as_holder(row)).least + slack) continue;
+        state.holder[static_cast<std::size_t>(column)].row = kUnassigned;
         column = kUnassigned;
       }
       free_rows.push_back(row);

@@ -25,7 +25,8 @@ TEST(Metropolis, ThresholdsFollowTheExponential) {
       if (y % 100 == 0)
         sweep.key_even = mix(sweep.key_even + 1, 3), sweep.key_odd = mix(sweep.key_odd + 1, 5);
       for (int x = 0; x < kWidth; ++x) {
-        const std::int64_t threshold = anneal::metropolis_threshold(pair_bits(sweep, kWidth, x, y), temperature);
+        const std::int64_t threshold =
+            anneal::metropolis_threshold(pair_bits(sweep, kWidth, x, y), temperature);
         ++count[static_cast<std::size_t>(std::min<std::int64_t>(threshold / step, kBins))];
       }
     }

@@ -1,9 +1,9 @@
-#include "retarget/assignment.h"
+#include "retarget/auction_state.h"
 
 namespace bn::retarget {
 
 template <class T>
-Market<T>::Market(const Grid<std::int32_t>& levels, const RetargetOptions& options)
+AuctionState<T>::AuctionState(const Grid<std::int32_t>& levels, const RetargetOptions& options)
     : layout(levels.size(), reach_rows(levels.size(), options), options.wrap),
       window(reach_rows(levels.size(), options)),
       square(options.metric == Metric::l2),
@@ -23,7 +23,7 @@ Market<T>::Market(const Grid<std::int32_t>& levels, const RetargetOptions& optio
 }
 
 template <class T>
-void Market<T>::find_columns() {
+void AuctionState<T>::find_columns() {
   std::fill(column_of.begin(), column_of.end(), kUnassigned);
   layout.for_each_pixel([&](std::int32_t column, int, int) {
     const std::int32_t row = holder[static_cast<std::size_t>(column)].row;
@@ -32,14 +32,14 @@ void Market<T>::find_columns() {
 }
 
 template <class T>
-void Market<T>::refine(int level_factor) {
+void AuctionState<T>::refine(int level_factor) {
   for (std::int32_t& level : row_level) level *= level_factor;
   for (Holder& h : holder) h.level *= level_factor;
   for (std::int32_t& level : column_level) level *= level_factor;
 }
 
 template <class T>
-void Market<T>::coarsen(int level_divisor) {
+void AuctionState<T>::coarsen(int level_divisor) {
   for (std::int32_t& level : row_level) level /= level_divisor;
   for (Holder& h : holder) h.level /= level_divisor;
   for (std::int32_t& level : column_level) level /= level_divisor;
@@ -49,7 +49,7 @@ void Market<T>::coarsen(int level_divisor) {
 }
 
 template <class T>
-std::vector<std::int64_t> Market<T>::pixel_prices() const {
+std::vector<std::int64_t> AuctionState<T>::pixel_prices() const {
   std::vector<std::int64_t> prices;
   prices.reserve(static_cast<std::size_t>(layout.size().area()));
   layout.for_each_pixel(
@@ -58,7 +58,7 @@ std::vector<std::int64_t> Market<T>::pixel_prices() const {
 }
 
 template <class T>
-Grid<Offset> Market<T>::moves(const RetargetOptions& options) const {
+Grid<Offset> AuctionState<T>::moves(const RetargetOptions& options) const {
   const auto [width, height] = layout.size();
   Grid<Offset> move(layout.size());
   for (int y = 0; y < height; ++y) {
@@ -75,7 +75,7 @@ Grid<Offset> Market<T>::moves(const RetargetOptions& options) const {
   return move;
 }
 
-template struct Market<std::int32_t>;
-template struct Market<std::int64_t>;
+template struct AuctionState<std::int32_t>;
+template struct AuctionState<std::int64_t>;
 
 }  // namespace bn::retarget
