@@ -9,8 +9,8 @@
 //
 // Three steps, one file each:
 //   auction.cpp         finds a nearly optimal assignment, fast, with prices in 1/16 of a unit of cost;
-//   shortest_paths.cpp  rounds the prices to integers, frees the rows that are not content with their
-//                       column, and assigns them again by shortest augmenting paths: exact;
+//   shortest_paths.cpp  rounds the prices to integers, frees the rows that violate complementary
+//                       slackness, and assigns them again by shortest augmenting paths: exact;
 //   certificate.cpp     computes the bound afresh from the definition.
 // The answer is right whatever the auction leaves behind; the auction only makes it quick.
 

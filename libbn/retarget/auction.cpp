@@ -2,10 +2,10 @@
 //
 // Rows without a column bid, one after the other. A row takes the column that is cheapest for it at present
 // prices and raises its price until the row is indifferent between it and the second cheapest, plus epsilon;
-// whoever held the column is outbid and bids next. Prices only rise, and each assigned row stays within
-// epsilon of its cheapest column, so a complete assignment is within rows * epsilon of the optimum. Coarse
-// epsilons settle the prices roughly in few bids; each finer level starts from them and frees only the rows
-// that are not within the new epsilon.
+// the row that the column was assigned to is outbid and bids next. Prices only rise, and each assigned row
+// stays within epsilon of its cheapest column, so a complete assignment is within rows * epsilon of the
+// optimum. Coarse epsilons settle the prices roughly in few bids; each finer level starts from them and frees
+// only the rows that are not within the new epsilon.
 //
 // The outbid row bids next while its part of the tile is in the cache; for the same reason rows start block
 // by block. Each bid waits for the one before it in its chain, so a few chains, each with its own share of
@@ -51,7 +51,7 @@ class Auction {
     for (int y = 0; y < height; y += kBlock) {
       for (int x = 0; x < width; x += kBlock) {
         const Extent size{std::min(kBlock, width - x), std::min(kBlock, height - y)};
-        free_discontent_rows(window_, state_, epsilon_, {x, y}, size, free_rows);
+        free_rows_violating_slackness(window_, state_, epsilon_, {x, y}, size, free_rows);
         block_ends.push_back(free_rows.size());
         block_areas.push_back(size.area());
         throw_if_stopped(execution_);
@@ -77,7 +77,7 @@ class Auction {
   /// Bids until all of these rows have a column, and whoever they outbid too.
   Outcome settle(std::span<const std::int32_t> free_rows) {
     struct Chain {
-      Holder bidder;
+      Assignee bidder;
       std::size_t next, end;
     };
     std::array<Chain, kChains> chains;
@@ -92,7 +92,7 @@ class Auction {
             ++ended;
             continue;
           }
-          chain.bidder = state_.as_holder(free_rows[chain.next++]);
+          chain.bidder = state_.as_assignee(free_rows[chain.next++]);
         }
         if (!bid(chain.bidder)) return Outcome::overflow;
         if (++bids_ % kStopInterval == 0) throw_if_stopped(execution_);
@@ -104,7 +104,7 @@ class Auction {
 
   /// `bidder` takes its cheapest column and becomes who is outbid, if anyone. False if a price passes the
   /// limit.
-  HWY_INLINE bool bid(Holder& bidder) {
+  HWY_INLINE bool bid(Assignee& bidder) {
     const auto best = window_.cheapest(bidder);
     const std::int32_t column = window_.column(bidder.row, best.position);
     T& price = state_.price[static_cast<std::size_t>(column)];
@@ -112,7 +112,7 @@ class Auction {
     const T raise = (best.second < AuctionState<T>::kBlocked ? best.second - best.least : T{0}) + epsilon_;
     if (price > state_.price_limit - raise) return false;
     state_.layout.store(state_.price, column, static_cast<T>(price + raise));
-    std::swap(bidder, state_.holder[static_cast<std::size_t>(column)]);
+    std::swap(bidder, state_.assignee[static_cast<std::size_t>(column)]);
     return true;
   }
 

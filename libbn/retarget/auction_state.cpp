@@ -10,7 +10,7 @@ AuctionState<T>::AuctionState(const Grid<std::int32_t>& levels, const RetargetOp
       row_level(static_cast<std::size_t>(layout.cells())),
       column_level(row_level.size()),
       price(row_level.size(), options.wrap ? T{0} : kBlocked),
-      holder(row_level.size(), Holder{kUnassigned, 0}),
+      assignee(row_level.size(), Assignee{kUnassigned, 0}),
       column_of(row_level.size(), kUnassigned) {
   const Grid<std::int32_t> from =
       shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
@@ -26,7 +26,7 @@ template <class T>
 void AuctionState<T>::find_columns() {
   std::fill(column_of.begin(), column_of.end(), kUnassigned);
   layout.for_each_pixel([&](std::int32_t column, int, int) {
-    const std::int32_t row = holder[static_cast<std::size_t>(column)].row;
+    const std::int32_t row = assignee[static_cast<std::size_t>(column)].row;
     if (row != kUnassigned) column_of[static_cast<std::size_t>(row)] = column;
   });
 }
@@ -34,14 +34,14 @@ void AuctionState<T>::find_columns() {
 template <class T>
 void AuctionState<T>::refine(int level_factor) {
   for (std::int32_t& level : row_level) level *= level_factor;
-  for (Holder& h : holder) h.level *= level_factor;
+  for (Assignee& h : assignee) h.level *= level_factor;
   for (std::int32_t& level : column_level) level *= level_factor;
 }
 
 template <class T>
 void AuctionState<T>::coarsen(int level_divisor) {
   for (std::int32_t& level : row_level) level /= level_divisor;
-  for (Holder& h : holder) h.level /= level_divisor;
+  for (Assignee& h : assignee) h.level /= level_divisor;
   for (std::int32_t& level : column_level) level /= level_divisor;
   for (T& p : price) {
     if (p != kBlocked) p = (p + kPriceScale / 2) >> kPriceScaleBits;

@@ -24,8 +24,8 @@ constexpr int level_scale(Metric metric) {
 
 inline constexpr std::int32_t kUnassigned = -1;
 
-/// A row with its level: who holds a column. Both together, as the next step needs both.
-struct Holder {
+/// A row with its level, to which a column is assigned. The two stand together, as the next step needs both.
+struct Assignee {
   std::int32_t row;
   std::int32_t level;
 };
@@ -49,19 +49,19 @@ struct AuctionState {
   std::vector<std::int32_t> row_level;
   std::vector<std::int32_t> column_level;
   std::vector<T> price;
-  std::vector<Holder> holder;           ///< per column
+  std::vector<Assignee> assignee;       ///< per column
   std::vector<std::int32_t> column_of;  ///< per row; out of date while the auction runs
   T price_limit = kMaxPrice;            ///< lower only in tests
 
-  /// cost + price of a column to whoever holds it.
-  T paid(std::int32_t column) const {
+  /// Cost + price of a column to the row that it is assigned to.
+  T assigned_cost(std::int32_t column) const {
     const auto at = static_cast<std::size_t>(column);
-    const T difference = T{holder[at].level} - column_level[at];
+    const T difference = T{assignee[at].level} - column_level[at];
     return (square ? difference * difference : difference < 0 ? -difference : difference) + price[at];
   }
-  Holder as_holder(std::int32_t row) const { return {row, row_level[static_cast<std::size_t>(row)]}; }
+  Assignee as_assignee(std::int32_t row) const { return {row, row_level[static_cast<std::size_t>(row)]}; }
 
-  /// Brings column_of up to date with holder.
+  /// Brings column_of up to date with `assignee`.
   void find_columns();
 
   /// To the auction's scale: levels times `level_scale(metric)`, before any price is set.

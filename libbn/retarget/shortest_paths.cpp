@@ -1,16 +1,17 @@
 // The exact finish: integer prices, and shortest augmenting paths from all free rows at once.
 //
-// The state is a partial assignment with integer prices in which each assigned row holds a column that is
+// The state is a partial assignment with integer prices in which each assigned row has a column that is
 // cheapest for it. The reduced cost of an arc is its cost + price less the row's cheapest: 0 on assigned
 // arcs, at least 0 on all. A search grows shortest-path trees (Dijkstra) from some free rows together,
-// through columns into the rows that hold them, up to a length `limit`. Raising the price of each column
-// reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then each
-// tree that has reached a free column assigns its root along the path. The trees share no column, so all of
-// them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
+// through columns into the rows that they are assigned to, up to a length `limit`. Raising the price of each
+// column reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then
+// each tree that has reached a free column assigns its root along the path. The trees share no column, so all
+// of them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
 //
-// After an auction nearly all free rows are one unit of cost from content: a few searches from all of them at
-// once, with limit 1, walk along arcs of cost 0 and assign most. Of the last ones a single tree soon floods
-// the tile and takes all the free columns; so these search one by one and stop at the first free column.
+// After an auction nearly all free rows violate complementary slackness by one unit of cost: a few searches
+// from all of them at once, with limit 1, walk along arcs of cost 0 and assign most. Of the last ones a
+// single tree soon floods the tile and takes all the free columns; so these search one by one and stop at the
+// first free column.
 //
 // H. W. Kuhn, "The Hungarian method for the assignment problem", 1955; R. Jonker and A. Volgenant, "A
 // shortest augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987; A.
@@ -35,7 +36,7 @@ class PathSearch {
  public:
   PathSearch(AuctionState<T>& state, const Execution& execution)
       : state_(state), execution_(execution), window_(state) {
-    free_discontent_rows(window_, state, T{0}, {0, 0}, state.layout.size(), free_rows_);
+    free_rows_violating_slackness(window_, state, T{0}, {0, 0}, state.layout.size(), free_rows_);
     if (free_rows_.empty()) return;
     const auto cells = static_cast<std::size_t>(state.layout.cells());
     distance_.assign(cells, kUnreached);
@@ -104,7 +105,7 @@ class PathSearch {
     limit_ = limit;
     to_first_free_ = to_first_free;
     for (std::size_t tree = 0; tree < roots.size(); ++tree) {
-      const Holder row = state_.as_holder(roots[tree]);
+      const Assignee row = state_.as_assignee(roots[tree]);
       reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree));
     }
     T base = 0;
@@ -112,7 +113,7 @@ class PathSearch {
       for (; next < settled_.size() && base < limit_; ++next) {
         const std::int32_t column = settled_[next];
         const auto at = static_cast<std::size_t>(column);
-        reach_from(state_.holder[at], base, state_.paid(column), root_[at]);
+        reach_from(state_.assignee[at], base, state_.assigned_cost(column), root_[at]);
         if (next % 8192 == 0) throw_if_stopped(execution_);
       }
       while (!later_.empty() && stale(later_.front())) pop_later();
@@ -133,11 +134,12 @@ class PathSearch {
     later_.pop_back();
   }
 
-  /// Offers the columns of `row`, itself at distance `base` and paying `paid`, their distance through it.
-  HWY_INLINE void reach_from(Holder row, T base, T paid, std::int32_t tree) {
+  /// Offers the columns of `row`, itself at distance `base` and paying `assigned_cost`, their distance
+  /// through it.
+  HWY_INLINE void reach_from(Assignee row, T base, T assigned_cost, std::int32_t tree) {
     const typename Window<T, kSquare>::D d;
     const auto too_far = hn::Set(d, static_cast<T>(limit_ + 1));
-    const auto offset = hn::Set(d, static_cast<T>(base - paid));
+    const auto offset = hn::Set(d, static_cast<T>(base - assigned_cost));
     const T* distances = distance_.data() + row.row;
     window_.for_each_run(row, [&](const Run& run, auto columns, auto seen) HWY_ATTR {
       const auto reached = hn::Add(seen, offset);
@@ -165,7 +167,7 @@ class PathSearch {
     state_.layout.store(distance_, column, distance);
     parent_[at] = row;
     root_[at] = tree;
-    if (state_.holder[at].row == kUnassigned) {
+    if (state_.assignee[at].row == kUnassigned) {
       if (first) free_columns_.push_back(column);
       if (to_first_free_) limit_ = distance;
     } else if (distance == limit_) {
@@ -199,7 +201,7 @@ class PathSearch {
         row = parent_[static_cast<std::size_t>(column)];
         const std::int32_t given_up = state_.column_of[static_cast<std::size_t>(row)];
         state_.column_of[static_cast<std::size_t>(row)] = column;
-        state_.holder[static_cast<std::size_t>(column)] = state_.as_holder(row);
+        state_.assignee[static_cast<std::size_t>(column)] = state_.as_assignee(row);
         column = given_up;
       }
     }

@@ -56,7 +56,7 @@ class Window {
 
   /// Calls visit(run, mask of its columns, cost + price of each; what lies beyond the mask is undefined).
   template <class Visit>
-  HWY_INLINE void for_each_run(Holder who, Visit&& visit) const {
+  HWY_INLINE void for_each_run(Assignee who, Visit&& visit) const {
     const D d;
     const V row_level = hn::Set(d, T{who.level});
     const std::int32_t* levels = state_.column_level.data() + who.row;
@@ -82,7 +82,7 @@ class Window {
     std::int32_t position;  ///< of `least`; the lowest if several are
   };
 
-  HWY_INLINE Best cheapest(Holder who) const {
+  HWY_INLINE Best cheapest(Assignee who) const {
     const D d;
     const V blocked = hn::Set(d, AuctionState<T>::kBlocked);
     V first = blocked, second = blocked, position = hn::Zero(d);
@@ -119,18 +119,19 @@ class Window {
   std::vector<std::int32_t> shifts_;
 };
 
-/// With column_of up to date: frees the rows of a rectangle whose column is more than `slack` above their
-/// cheapest, and appends all free rows of the rectangle to `free_rows`, in index order.
+/// Frees the rows of a rectangle that violate complementary slackness, whose column costs more than `slack`
+/// above their cheapest, with column_of up to date; and appends all free rows of the rectangle to
+/// `free_rows`, in index order.
 template <class T, bool kSquare>
-void free_discontent_rows(const Window<T, kSquare>& window, AuctionState<T>& state, T slack, Offset origin,
-                          Extent size, std::vector<std::int32_t>& free_rows) {
+void free_rows_violating_slackness(const Window<T, kSquare>& window, AuctionState<T>& state, T slack,
+                                   Offset origin, Extent size, std::vector<std::int32_t>& free_rows) {
   for (int y = origin.y; y < origin.y + size.height; ++y) {
     for (int x = origin.x; x < origin.x + size.width; ++x) {
       const std::int32_t row = state.layout.cell(x, y);
       std::int32_t& column = state.column_of[static_cast<std::size_t>(row)];
       if (column != kUnassigned) {
-        if (state.paid(column) <= window.cheapest(state.as_holder(row)).least + slack) continue;
-        state.holder[static_cast<std::size_t>(column)].row = kUnassigned;
+        if (state.assigned_cost(column) <= window.cheapest(state.as_assignee(row)).least + slack) continue;
+        state.assignee[static_cast<std::size_t>(column)].row = kUnassigned;
         column = kUnassigned;
       }
       free_rows.push_back(row);
