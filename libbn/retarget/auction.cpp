@@ -24,7 +24,7 @@
 #include <array>
 #include <span>
 
-#include "retarget/window-inl.h"
+#include "retarget/candidate_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bn::retarget {
@@ -37,7 +37,7 @@ class Auction {
       : state_(state),
         execution_(execution),
         progress_(progress),
-        window_(state),
+        candidates_(state),
         epsilon_(epsilon),
         patience_(kPatience * state.layout.size().area()) {}
 
@@ -51,7 +51,7 @@ class Auction {
     for (int y = 0; y < height; y += kBlock) {
       for (int x = 0; x < width; x += kBlock) {
         const Extent size{std::min(kBlock, width - x), std::min(kBlock, height - y)};
-        free_rows_violating_slackness(window_, state_, epsilon_, {x, y}, size, free_rows);
+        free_rows_violating_slackness(candidates_, state_, epsilon_, {x, y}, size, free_rows);
         block_ends.push_back(free_rows.size());
         block_areas.push_back(size.area());
         throw_if_stopped(execution_);
@@ -105,8 +105,8 @@ class Auction {
   /// `bidder` takes its cheapest column and becomes who is outbid, if anyone. False if a price passes the
   /// limit.
   HWY_INLINE bool bid(Assignee& bidder) {
-    const auto best = window_.cheapest(bidder);
-    const std::int32_t column = window_.column(bidder.row, best.position);
+    const auto best = candidates_.cheapest(bidder);
+    const std::int32_t column = candidates_.column(bidder.row, best.position);
     T& price = state_.price[static_cast<std::size_t>(column)];
     // Without a second column there is nobody to outbid.
     const T raise = (best.second < AuctionState<T>::kBlocked ? best.second - best.least : T{0}) + epsilon_;
@@ -124,7 +124,7 @@ class Auction {
   AuctionState<T>& state_;
   const Execution& execution_;
   ProgressMeter& progress_;
-  Window<T, kSquare> window_;
+  CandidateColumns<T, kSquare> candidates_;
   T epsilon_;
   std::int64_t patience_;
   std::int64_t bids_ = 0;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "retarget/layout.h"
+#include "retarget/padded_torus.h"
 
 namespace bn::retarget {
 
@@ -41,7 +41,7 @@ struct AuctionState {
 
   AuctionState(const Grid<std::int32_t>& levels, const RetargetOptions& options);
 
-  PaddedLayout layout;
+  PaddedTorus layout;
   std::vector<ReachRow> window;
   bool square;  ///< metric L2
 

@@ -25,7 +25,7 @@
 #include <cstring>
 #include <span>
 
-#include "retarget/window-inl.h"
+#include "retarget/candidate_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace bn::retarget {
@@ -35,8 +35,8 @@ template <class T, bool kSquare>
 class PathSearch {
  public:
   PathSearch(AuctionState<T>& state, const Execution& execution)
-      : state_(state), execution_(execution), window_(state) {
-    free_rows_violating_slackness(window_, state, T{0}, {0, 0}, state.layout.size(), free_rows_);
+      : state_(state), execution_(execution), candidates_(state) {
+    free_rows_violating_slackness(candidates_, state, T{0}, {0, 0}, state.layout.size(), free_rows_);
     if (free_rows_.empty()) return;
     const auto cells = static_cast<std::size_t>(state.layout.cells());
     distance_.assign(cells, kUnreached);
@@ -106,7 +106,7 @@ class PathSearch {
     to_first_free_ = to_first_free;
     for (std::size_t tree = 0; tree < roots.size(); ++tree) {
       const Assignee row = state_.as_assignee(roots[tree]);
-      reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree));
+      reach_from(row, T{0}, candidates_.cheapest(row).least, static_cast<std::int32_t>(tree));
     }
     T base = 0;
     for (std::size_t next = 0;;) {
@@ -137,16 +137,16 @@ class PathSearch {
   /// Offers the columns of `row`, itself at distance `base` and paying `assigned_cost`, their distance
   /// through it.
   HWY_INLINE void reach_from(Assignee row, T base, T assigned_cost, std::int32_t tree) {
-    const typename Window<T, kSquare>::D d;
+    const typename CandidateColumns<T, kSquare>::D d;
     const auto too_far = hn::Set(d, static_cast<T>(limit_ + 1));
     const auto offset = hn::Set(d, static_cast<T>(base - assigned_cost));
     const T* distances = distance_.data() + row.row;
-    window_.for_each_run(row, [&](const Run& run, auto columns, auto seen) HWY_ATTR {
+    candidates_.for_each_span(row, [&](const ColumnSpan& span, auto columns, auto seen) HWY_ATTR {
       const auto reached = hn::Add(seen, offset);
-      const auto known = hn::LoadU(d, distances + run.shift);
+      const auto known = hn::LoadU(d, distances + span.shift);
       const auto nearer = hn::And(hn::Lt(reached, hn::Min(known, too_far)), columns);
       if (HWY_LIKELY(hn::AllFalse(d, nearer))) return;
-      HWY_ALIGN T through[hn::MaxLanes(typename Window<T, kSquare>::D())];
+      HWY_ALIGN T through[hn::MaxLanes(typename CandidateColumns<T, kSquare>::D())];
       hn::Store(reached, d, through);
       std::uint8_t bytes[8] = {};
       hn::StoreMaskBits(d, nearer, bytes);
@@ -154,7 +154,7 @@ class PathSearch {
       std::memcpy(&bits, bytes, sizeof(bits));
       for (; bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctzll(bits);
-        reach(state_.layout.home(row.row + run.shift + lane), row.row, through[lane], base, tree);
+        reach(state_.layout.home(row.row + span.shift + lane), row.row, through[lane], base, tree);
       }
     });
   }
@@ -209,7 +209,7 @@ class PathSearch {
 
   AuctionState<T>& state_;
   const Execution& execution_;
-  Window<T, kSquare> window_;
+  CandidateColumns<T, kSquare> candidates_;
   std::vector<std::int32_t> free_rows_;
   std::vector<T> distance_;                 // per column
   std::vector<std::int32_t> parent_;        // per column: the row it was reached from

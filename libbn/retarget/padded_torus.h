@@ -14,9 +14,9 @@
 
 namespace bn::retarget {
 
-class PaddedLayout {
+class PaddedTorus {
  public:
-  PaddedLayout(Extent size, const std::vector<ReachRow>& window, bool wrapped)
+  PaddedTorus(Extent size, const std::vector<ReachRow>& window, bool wrapped)
       : size_(size), wrapped_(wrapped) {
     for (const ReachRow& row : window) {
       left_ = std::max(left_, -row.x_low);
