@@ -1,8 +1,10 @@
 // One annealing run in a thread of its own: started, paused, stepped and stopped from a window that never
 // waits for it.
 //
-//   window --start, pause, sweep, stop--> wishes --> run's thread: slice, slice, ... (bn/retarget_anneal.h,
-//   Annealing) window <--standing(), placement(), trace()-- what was published between two slices
+// clang-format off
+//   window      --start, pause, sweep, stop-->      wishes  -->  the run's thread: slice, slice, ... (Annealing)
+//   window  <--standing(), placement(), trace()--   what was published between two slices
+// clang-format on
 //
 // The run's thread looks at the wishes between slices, so they come true within a slice (a 512th of the run,
 // a tenth of a second at most at common speeds). Watching costs it a short lock a slice, and, where a

@@ -1,4 +1,4 @@
-// A cooling schedule on its way: what a run has done so far, and the temperature that follows from it.
+// The runtime state of a cooling schedule: what a run has done so far, and the temperature that follows from it.
 
 #pragma once
 

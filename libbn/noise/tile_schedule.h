@@ -1,4 +1,4 @@
-// Which tile is filled when, and by which thread: a matter of speed alone, as fill_tile.cpp says.
+// Schedules tiles over threads. The schedule does not change the result; fill_tile.cpp says why.
 
 #pragma once
 

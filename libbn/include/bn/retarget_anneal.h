@@ -105,8 +105,9 @@ class Annealing {
   std::string checkpoint() const;
   Grid<Offset> move() const;         ///< the placement of the traced chain, now; a pass over the pixels
   Grid<std::int8_t> move_z() const;  ///< its third axis, of a volume; else empty
-  /// With the best placement after a whole round, so far; likewise. A run of one chain whose stop_after is
-  /// result().proposals ends with the same bytes; none has been made before the first round ends.
+  /// The best permutation found so far, looked for at the end of each round. Costs one pass over the pixels. A
+  /// run of one chain whose stop_after is result().proposals ends with the same bytes. Before the end of the
+  /// first round it is the identity.
   AnnealResult result() const;
   /// What the options came to: of the traced chain, over all proposals but the last 64th.
   CoolingSchedule schedule() const;
