@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bn/spectrum.h"
+#include "bn_study/fft.h"
 #include "tools/verb.h"
 
 namespace bn::tools {

@@ -12,10 +12,10 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "bn/anneal.h"
 #include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
+#include "bn_study/anneal.h"
 #include "tools/verb.h"
 
 namespace bn::tools {

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "bn/retarget.h"
-#include "bn/runtime.h"
+#include "bn_study/models.h"
 #include "tools/verb.h"
 
 namespace bn::tools {

@@ -6,7 +6,7 @@
 
 #include "bn/error.h"
 #include "bn/report.h"
-#include "bn/runtime.h"
+#include "bn_study/validation.h"
 #include "tools/verb.h"
 
 namespace bn::tools {
@@ -62,7 +62,7 @@ ValueKind<std::vector<Method>> method_list() {
 
 void run(Settings& settings, Session& session) {
   StudyOptions& study = settings.study;
-  study.scenes = settings.scene == "all" ? shipped_scenes() : std::vector<std::string>{settings.scene};
+  study.scenes = settings.scene == "all" ? shipped_scene_names() : std::vector<std::string>{settings.scene};
   for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
   if (!settings.methods.empty()) {
     study.methods = settings.methods;
@@ -121,7 +121,7 @@ Verb validate_verb() {
       "for the plain renderer without Vulkan.";
   verb.arguments.positional(
       "SCENE", settings->scene, any_text("SCENE"),
-      "wall, room, poster, bars, slow-pan, fast-pan, cut, all of them by all, or a TOML file.");
+      fmt::format("{}, all of them by all, or a TOML file.", fmt::join(shipped_scene_names(), ", ")));
   verb.arguments.option(
       "--method", settings->methods, method_list(),
       "Some methods, and white noise to measure them against; all adds other block sizes and "
@@ -133,7 +133,7 @@ Verb validate_verb() {
                         "Folder with a stack of masks, an image a slice in name order: the method slices.");
   verb.arguments.option("--step", settings->step, offset_or_auto(),
                         "The dither step; must be the one the tiles were baked for, which auto takes.");
-  verb.arguments.flag("--unsafe", settings->unsafe, true, "Let a wrong step pass, to see what it costs.");
+  verb.arguments.flag("--unsafe", settings->unsafe, true, "Do not check that the step is that of the tiles, for experiments.");
   verb.arguments.option("--device", settings->device, any_text("NAME"),
                         "lavapipe, gpu, cpu, or a device's name.");
   verb.arguments.option("--size", study.screen, extent_in(8, 4096), "The screen.");
@@ -144,7 +144,7 @@ Verb validate_verb() {
   verb.arguments.option("--block", study.block, integer_in(2, 16), "Side of the sort blocks: 2, 4, 8 or 16.");
   verb.arguments.flag("--jitter", study.jitter, true, "Move the block grid by a random offset each frame.");
   verb.arguments.flag("--sort-by-light", study.sort_by_light, true,
-                      "Sort by the light alone, without the surface's colour: texture edges are none to it.");
+                      "Sort by the light alone, without the surface's colour; ignores texture edges.");
   verb.arguments.option("--seed", study.seed, seed_value(), "Chooses the random numbers.");
   verb.arguments.flag("--quick", settings->quick, true, "192x128 pixels, 8 frames, 128 reference paths.");
   verb.arguments.required_option("--out", settings->out, folder_path(), "Where the report goes.", "-o");

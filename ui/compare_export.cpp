@@ -4,9 +4,9 @@
 
 #include <string_view>
 
-#include "bn/anneal.h"
 #include "bn/report.h"
 #include "bn/texture.h"
+#include "bn_study/anneal.h"
 
 namespace bn::ui {
 namespace {

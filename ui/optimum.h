@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "ui/task.h"
 
 namespace bn::ui {

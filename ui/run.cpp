@@ -98,7 +98,7 @@ void Run::anneal(const std::stop_token& stop) {
   while (!annealing.state().done) {
     const Next what = next(stop, annealing);
     if (what == Next::nothing) break;
-    what == Next::sweep ? annealing.sweep() : annealing.beat();
+    what == Next::sweep ? annealing.sweep() : annealing.advance();
     publish(annealing.state());
     publish_placement(annealing);
   }
@@ -118,7 +118,7 @@ Run::Next Run::next(const std::stop_token& stop, const Annealing& annealing) {
   if (stop.stop_requested()) return Next::nothing;
   if (wants_running_) {
     standing_.phase = Phase::running;
-    return Next::beat;
+    return Next::slice;
   }
   if (wanted_sweeps_ == 0) {
     // What the window shows of a paused run is the run, not what it was some time ago.
@@ -136,7 +136,7 @@ Run::Next Run::next(const std::stop_token& stop, const Annealing& annealing) {
     if (stop.stop_requested()) return Next::nothing;
     standing_.phase = Phase::running;
   }
-  if (wants_running_) return Next::beat;
+  if (wants_running_) return Next::slice;
   --wanted_sweeps_;
   return Next::sweep;
 }

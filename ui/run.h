@@ -1,13 +1,15 @@
 // One annealing run in a thread of its own: started, paused, stepped and stopped from a window that never
 // waits for it.
 //
-//   window --start, pause, sweep, stop--> wishes --> run's thread: beat, beat, beat ... (bn/anneal.h,
-//   Annealing) window <--standing(), placement(), trace()-- what was published between two beats
+// clang-format off
+//   window      --start, pause, sweep, stop-->      wishes  -->  the run's thread: slice, slice, ... (Annealing)
+//   window  <--standing(), placement(), trace()--   what was published between two slices
+// clang-format on
 //
-// The run's thread looks at the wishes between beats, so they come true within a beat (a 512th of the run, a
-// tenth of a second at most at common speeds). Watching costs it a short lock a beat, and, where a placement
-// is asked for, a copy of it, made so seldom that it stays below a hundredth of the time. Nothing that is
-// watched changes a byte of the result.
+// The run's thread looks at the wishes between slices, so they come true within a slice (a 512th of the run,
+// a tenth of a second at most at common speeds). Watching costs it a short lock a slice, and, where a
+// placement is asked for, a copy of it, made so seldom that it stays below a hundredth of the time. Nothing
+// that is watched changes a byte of the result.
 
 #pragma once
 
@@ -18,8 +20,8 @@
 #include <optional>
 #include <thread>
 
-#include "bn/anneal.h"
 #include "bn/error.h"
+#include "bn/retarget_anneal.h"
 
 namespace bn::ui {
 
@@ -61,7 +63,7 @@ class Run {
  public:
   /// Starts; `paused`: only prepares, and waits for start() or sweep().
   explicit Run(RunSetup setup, bool paused = false);
-  /// Stops, and waits for the end of the beat: let has_ended() be true before, and the window will not.
+  /// Stops, and waits for the end of the slice: let has_ended() be true before, and the window will not.
   ~Run();
   Run(const Run&) = delete;
   Run& operator=(const Run&) = delete;
@@ -88,8 +90,8 @@ class Run {
 
   void work(const std::stop_token& stop);
   void anneal(const std::stop_token& stop);
-  /// What is done next: nothing (a stop), a sweep or a beat. Waits while the run is paused.
-  enum class Next { nothing, sweep, beat };
+  /// What is done next: nothing (a stop), a sweep or a slice. Waits while the run is paused.
+  enum class Next { nothing, sweep, slice };
   Next next(const std::stop_token& stop, const Annealing& annealing);
   void publish(const AnnealState& state);
   void publish_placement(const Annealing& annealing);

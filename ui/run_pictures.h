@@ -5,7 +5,7 @@
 #include <memory>
 #include <optional>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "bn/spectrum.h"
 #include "ui/image_view.h"
 #include "ui/plot.h"

@@ -174,7 +174,7 @@ void RunView::draw_controls(App& app) {
     flow(button_width(label), em(gap));
     return button(label, enabled, hint);
   };
-  if (next("Pause", live && !paused, "Halt between two beats (space)")) run->pause();
+  if (next("Pause", live && !paused, "Halt between two slices of the run (space)")) run->pause();
   if (next("One sweep", true, "Half as many proposals as pixels, then a pause (S)")) {
     live ? run->sweep() : fresh(true);
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "bn/spectrum.h"
 #include "bn/texture.h"
 #include "ui/image_view.h"

@@ -16,7 +16,7 @@
 #include "noise/energy_field.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::noise {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -134,7 +134,7 @@ HWY_INLINE void add_images(EnergyField& field, const BlockKernel& kernel, int x,
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::noise
 HWY_AFTER_NAMESPACE();
 
 #endif  // BN_NOISE_ADD_KERNEL_INL_H

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace bn {
+namespace bn::noise {
 namespace {
 
 int blocks_for(int pixels) { return (pixels + kBlockSide - 1) / kBlockSide; }
@@ -62,4 +62,4 @@ BlockKernel::BlockKernel(const GaussianKernel& kernel, int sign)
   }
 }
 
-}  // namespace bn
+}  // namespace bn::noise

@@ -15,7 +15,7 @@
 #include "bn/grid.h"
 #include "noise/gaussian_kernel.h"
 
-namespace bn {
+namespace bn::noise {
 
 inline constexpr int kBlockShift = 3;
 inline constexpr int kBlockSide = 1 << kBlockShift;
@@ -81,4 +81,4 @@ class BlockKernel {
   std::vector<std::int32_t> weights_;
 };
 
-}  // namespace bn
+}  // namespace bn::noise

@@ -47,7 +47,7 @@
 #include "noise/fill_tile.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::noise {
 namespace HWY_NAMESPACE {
 namespace {
 
@@ -278,11 +278,11 @@ void add_kernel_here(EnergyField& field, const BlockKernel& kernel, int x, int y
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::noise
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::noise {
 namespace {
 HWY_EXPORT(fill_tile_here);
 HWY_EXPORT(add_kernel_here);
@@ -297,5 +297,5 @@ std::int64_t fill_tile(EnergyField& field, const BlockKernel& kernel, const Bloc
   return HWY_DYNAMIC_DISPATCH(fill_tile_here)(field, kernel, tile, rounds, energy_when_set);
 }
 
-}  // namespace bn
+}  // namespace bn::noise
 #endif  // HWY_ONCE

@@ -6,7 +6,7 @@
 
 #include "noise/energy_field.h"
 
-namespace bn {
+namespace bn::noise {
 
 /// A rectangle of blocks on the torus: it may run across the seams, but never onto itself.
 struct BlockRect {
@@ -27,4 +27,4 @@ void add_kernel(EnergyField& field, const BlockKernel& kernel, int x, int y);
 std::int64_t fill_tile(EnergyField& field, const BlockKernel& kernel, const BlockRect& tile, int rounds,
                        std::uint32_t* energy_when_set);
 
-}  // namespace bn
+}  // namespace bn::noise

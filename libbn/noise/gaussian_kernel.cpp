@@ -5,7 +5,7 @@
 
 #include "core/reproducible_math.h"
 
-namespace bn {
+namespace bn::noise {
 namespace {
 
 // Rounding adds at most half a unit a weight, so the weights can exceed the sum they are scaled to by
@@ -51,4 +51,4 @@ std::int32_t GaussianKernel::weight(int x, int y) const {
   return weights_[static_cast<std::size_t>((y + radius_) * (2 * radius_ + 1) + x + radius_)];
 }
 
-}  // namespace bn
+}  // namespace bn::noise

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace bn {
+namespace bn::noise {
 
 /// Added to the energy of a pixel when it is set: above every energy of an unset pixel.
 inline constexpr std::int32_t kSetMark = std::int32_t{1} << 30;
@@ -42,4 +42,4 @@ class GaussianKernel {
   std::vector<std::int32_t> weights_;  // by (y + radius_) * (2 * radius_ + 1) + x + radius_
 };
 
-}  // namespace bn
+}  // namespace bn::noise

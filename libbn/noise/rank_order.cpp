@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace bn {
+namespace bn::noise {
 namespace {
 
 // The bits of an energy, from the highest: bucket, digit, digit.
@@ -97,4 +97,4 @@ void replace_by_ranks(Grid<std::uint32_t>& energies, std::span<std::uint32_t> ro
   });
 }
 
-}  // namespace bn
+}  // namespace bn::noise

@@ -9,7 +9,7 @@
 #include "bn/grid.h"
 #include "noise/gaussian_kernel.h"
 
-namespace bn {
+namespace bn::noise {
 
 /// An energy that takes part in no order.
 inline constexpr std::uint32_t kUnranked = UINT32_MAX;
@@ -20,4 +20,4 @@ inline constexpr std::uint32_t kUnranked = UINT32_MAX;
 void replace_by_ranks(Grid<std::uint32_t>& energies, std::span<std::uint32_t> room,
                       const Execution& execution);
 
-}  // namespace bn
+}  // namespace bn::noise

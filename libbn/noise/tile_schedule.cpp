@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cstdint>
 
-namespace bn {
+namespace bn::noise {
 namespace {
 
 // 56x56 blocks are 784 KiB of energies, near the second-level cache. Fields of fewer than four tiles along
@@ -123,4 +123,4 @@ void TileSchedule::end() {
   changed_.notify_all();
 }
 
-}  // namespace bn
+}  // namespace bn::noise

@@ -1,4 +1,4 @@
-// Which tile is filled when, and by which thread: a matter of speed alone, as fill_tile.cpp says.
+// Schedules tiles over threads. The schedule does not change the result; fill_tile.cpp says why.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 #include "noise/energy_field.h"
 #include "noise/fill_tile.h"
 
-namespace bn {
+namespace bn::noise {
 
 /// Hands out visits to the tiles that cover a field, again and again. Two tiles that are out at once are
 /// out of each other's reach. Thread safe.
@@ -49,4 +49,4 @@ class TileSchedule {
   std::condition_variable changed_;
 };
 
-}  // namespace bn
+}  // namespace bn::noise

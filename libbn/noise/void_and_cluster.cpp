@@ -36,6 +36,7 @@
 #include "noise/void_order.h"
 
 namespace bn {
+using namespace noise;
 namespace {
 
 constexpr int kMaxSide = 16384;

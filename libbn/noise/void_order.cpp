@@ -6,7 +6,7 @@
 #include "noise/rank_order.h"
 #include "noise/tile_schedule.h"
 
-namespace bn {
+namespace bn::noise {
 
 Grid<std::uint32_t> void_order(EnergyField&& field, const BlockKernel& kernel, std::int64_t count,
                                const Execution& execution, ProgressMeter& meter) {
@@ -35,4 +35,4 @@ Grid<std::uint32_t> void_order(EnergyField&& field, const BlockKernel& kernel, s
   return order;
 }
 
-}  // namespace bn
+}  // namespace bn::noise

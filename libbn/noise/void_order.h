@@ -7,7 +7,7 @@
 #include "core/progress.h"
 #include "noise/energy_field.h"
 
-namespace bn {
+namespace bn::noise {
 
 /// Fills all unset pixels of the field, always the one of least (energy, index), adding the kernel
 /// around each. Returns for each of them its place in that order, from 0, and kUnranked for all others.
@@ -15,4 +15,4 @@ namespace bn {
 Grid<std::uint32_t> void_order(EnergyField&& field, const BlockKernel& kernel, std::int64_t count,
                                const Execution& execution, ProgressMeter& meter);
 
-}  // namespace bn
+}  // namespace bn::noise

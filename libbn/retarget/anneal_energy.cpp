@@ -4,6 +4,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 Placement checked_moves(const AnnealInstance& instance, const Grid<Offset>& move,

@@ -8,7 +8,7 @@
 #include "core/refuse.h"
 #include "retarget/filtered_energy.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
 
 /// Large moves are useful while hot, near ones throughout; 5/3 of the radius was the best compromise
@@ -171,4 +171,4 @@ void AnnealInstance::check_moves(const Placement& move) const {
   }
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

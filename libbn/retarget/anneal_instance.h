@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "bn/anneal.h"
+#include "bn/retarget_anneal.h"
 #include "retarget/problem.h"
 
-namespace bn {
+namespace bn::retarget {
 
 /// Room that both engines keep for sums: no swap changes the energy by more than this, no energy exceeds it.
 inline constexpr std::int64_t kMaxAnnealEnergy = std::int64_t{1} << 62;
@@ -90,4 +90,4 @@ struct AnnealInstance {
   void check_moves(const Placement& move) const;
 };
 
-}  // namespace bn
+}  // namespace bn::retarget

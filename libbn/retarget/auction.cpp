@@ -2,10 +2,10 @@
 //
 // Rows without a column bid, one after the other. A row takes the column that is cheapest for it at present
 // prices and raises its price until the row is indifferent between it and the second cheapest, plus epsilon;
-// whoever held the column is outbid and bids next. Prices only rise, and each assigned row stays within
-// epsilon of its cheapest column, so a complete assignment is within rows * epsilon of the optimum. Coarse
-// epsilons settle the prices roughly in few bids; each finer level starts from them and frees only the rows
-// that are not within the new epsilon.
+// the row that the column was assigned to is outbid and bids next. Prices only rise, and each assigned row
+// stays within epsilon of its cheapest column, so a complete assignment is within rows * epsilon of the
+// optimum. Coarse epsilons settle the prices roughly in few bids; each finer level starts from them and frees
+// only the rows that are not within the new epsilon.
 //
 // The outbid row bids next while its part of the tile is in the cache; for the same reason rows start block
 // by block. Each bid waits for the one before it in its chain, so a few chains, each with its own share of
@@ -24,25 +24,25 @@
 #include <array>
 #include <span>
 
-#include "retarget/window-inl.h"
+#include "retarget/candidate_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::retarget {
 namespace HWY_NAMESPACE {
 
 template <class T, bool kSquare>
 class Auction {
  public:
-  Auction(Market<T>& market, T epsilon, const Execution& execution, ProgressMeter& progress)
-      : market_(market),
+  Auction(AuctionState<T>& state, T epsilon, const Execution& execution, ProgressMeter& progress)
+      : state_(state),
         execution_(execution),
         progress_(progress),
-        window_(market),
+        candidates_(state),
         epsilon_(epsilon),
-        patience_(kPatience * market.layout.size().area()) {}
+        patience_(kPatience * state.layout.size().area()) {}
 
   AuctionLevel run() {
-    const auto [width, height] = market_.layout.size();
+    const auto [width, height] = state_.layout.size();
     // All rows are looked at before the first bid: a freed row's column draws its neighbours' chains to an
     // end.
     std::vector<std::int32_t> free_rows;
@@ -51,7 +51,7 @@ class Auction {
     for (int y = 0; y < height; y += kBlock) {
       for (int x = 0; x < width; x += kBlock) {
         const Extent size{std::min(kBlock, width - x), std::min(kBlock, height - y)};
-        free_discontent_rows(window_, market_, epsilon_, {x, y}, size, free_rows);
+        free_rows_violating_slackness(candidates_, state_, epsilon_, {x, y}, size, free_rows);
         block_ends.push_back(free_rows.size());
         block_areas.push_back(size.area());
         throw_if_stopped(execution_);
@@ -63,7 +63,7 @@ class Auction {
       if (outcome != Outcome::done) break;
       progress_.advance(static_cast<std::uint64_t>(block_areas[block]));
     }
-    market_.find_columns();
+    state_.find_columns();
     return {outcome, epsilon_};
   }
 
@@ -77,7 +77,7 @@ class Auction {
   /// Bids until all of these rows have a column, and whoever they outbid too.
   Outcome settle(std::span<const std::int32_t> free_rows) {
     struct Chain {
-      Holder bidder;
+      Assignee bidder;
       std::size_t next, end;
     };
     std::array<Chain, kChains> chains;
@@ -92,7 +92,7 @@ class Auction {
             ++ended;
             continue;
           }
-          chain.bidder = market_.as_holder(free_rows[chain.next++]);
+          chain.bidder = state_.as_assignee(free_rows[chain.next++]);
         }
         if (!bid(chain.bidder)) return Outcome::overflow;
         if (++bids_ % kStopInterval == 0) throw_if_stopped(execution_);
@@ -104,67 +104,67 @@ class Auction {
 
   /// `bidder` takes its cheapest column and becomes who is outbid, if anyone. False if a price passes the
   /// limit.
-  HWY_INLINE bool bid(Holder& bidder) {
-    const auto best = window_.cheapest(bidder);
-    const std::int32_t column = window_.column(bidder.row, best.position);
-    T& price = market_.price[static_cast<std::size_t>(column)];
+  HWY_INLINE bool bid(Assignee& bidder) {
+    const auto best = candidates_.cheapest(bidder);
+    const std::int32_t column = candidates_.column(bidder.row, best.position);
+    T& price = state_.price[static_cast<std::size_t>(column)];
     // Without a second column there is nobody to outbid.
-    const T raise = (best.second < Market<T>::kBlocked ? best.second - best.least : T{0}) + epsilon_;
-    if (price > market_.price_limit - raise) return false;
-    market_.layout.store(market_.price, column, static_cast<T>(price + raise));
-    std::swap(bidder, market_.holder[static_cast<std::size_t>(column)]);
+    const T raise = (best.second < AuctionState<T>::kBlocked ? best.second - best.least : T{0}) + epsilon_;
+    if (price > state_.price_limit - raise) return false;
+    state_.layout.store(state_.price, column, static_cast<T>(price + raise));
+    std::swap(bidder, state_.assignee[static_cast<std::size_t>(column)]);
     return true;
   }
 
   bool raise_epsilon() {
-    if (epsilon_ <= Market<T>::kMaxCost / 4) epsilon_ = static_cast<T>(epsilon_ * 4);
+    if (epsilon_ <= AuctionState<T>::kMaxCost / 4) epsilon_ = static_cast<T>(epsilon_ * 4);
     return ++raises_ <= kMostRaises;
   }
 
-  Market<T>& market_;
+  AuctionState<T>& state_;
   const Execution& execution_;
   ProgressMeter& progress_;
-  Window<T, kSquare> window_;
+  CandidateColumns<T, kSquare> candidates_;
   T epsilon_;
   std::int64_t patience_;
   std::int64_t bids_ = 0;
   int raises_ = 0;
 };
 
-AuctionLevel Auction32(Market<std::int32_t>& market, std::int64_t epsilon, const Execution& execution,
+AuctionLevel Auction32(AuctionState<std::int32_t>& state, std::int64_t epsilon, const Execution& execution,
                        ProgressMeter& progress) {
   const auto narrow = static_cast<std::int32_t>(epsilon);
-  return market.square ? Auction<std::int32_t, true>(market, narrow, execution, progress).run()
-                       : Auction<std::int32_t, false>(market, narrow, execution, progress).run();
+  return state.square ? Auction<std::int32_t, true>(state, narrow, execution, progress).run()
+                      : Auction<std::int32_t, false>(state, narrow, execution, progress).run();
 }
 
-AuctionLevel Auction64(Market<std::int64_t>& market, std::int64_t epsilon, const Execution& execution,
+AuctionLevel Auction64(AuctionState<std::int64_t>& state, std::int64_t epsilon, const Execution& execution,
                        ProgressMeter& progress) {
-  return market.square ? Auction<std::int64_t, true>(market, epsilon, execution, progress).run()
-                       : Auction<std::int64_t, false>(market, epsilon, execution, progress).run();
+  return state.square ? Auction<std::int64_t, true>(state, epsilon, execution, progress).run()
+                      : Auction<std::int64_t, false>(state, epsilon, execution, progress).run();
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::retarget
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::retarget {
 
 HWY_EXPORT(Auction32);
 HWY_EXPORT(Auction64);
 
 template <>
-AuctionLevel run_auction(Market<std::int32_t>& market, std::int64_t epsilon, const Execution& execution,
+AuctionLevel run_auction(AuctionState<std::int32_t>& state, std::int64_t epsilon, const Execution& execution,
                          ProgressMeter& progress) {
-  return HWY_DYNAMIC_DISPATCH(Auction32)(market, epsilon, execution, progress);
+  return HWY_DYNAMIC_DISPATCH(Auction32)(state, epsilon, execution, progress);
 }
 
 template <>
-AuctionLevel run_auction(Market<std::int64_t>& market, std::int64_t epsilon, const Execution& execution,
+AuctionLevel run_auction(AuctionState<std::int64_t>& state, std::int64_t epsilon, const Execution& execution,
                          ProgressMeter& progress) {
-  return HWY_DYNAMIC_DISPATCH(Auction64)(market, epsilon, execution, progress);
+  return HWY_DYNAMIC_DISPATCH(Auction64)(state, epsilon, execution, progress);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget
 #endif

@@ -16,7 +16,7 @@
 #include "retarget/assignment.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::retarget {
 namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
@@ -35,11 +35,11 @@ void LowerMinima(std::int64_t* least, const std::int64_t* a, const std::int64_t*
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::retarget
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::retarget {
 
 HWY_EXPORT(LowerMinima);
 
@@ -102,5 +102,5 @@ std::int64_t certified_lower_bound(const Grid<std::int32_t>& levels, const Retar
   return -static_cast<std::int64_t>(-bound >> scale_bits);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget
 #endif

@@ -7,6 +7,7 @@
 #include "retarget/problem.h"
 
 namespace bn {
+using namespace retarget;
 
 std::int64_t retarget_energy(const Grid<std::int32_t>& levels, const Grid<Offset>& move,
                              const RetargetOptions& options) {

@@ -5,7 +5,7 @@
 #include "bn/error.h"
 #include "core/reproducible_math.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
 
 /// A Gaussian in integers that sum to about 2^bits, cut at 3 sigma.
@@ -108,4 +108,4 @@ void ResidualField::apply(std::size_t p, std::size_t q, std::int64_t amount) {
   add(q, -amount);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

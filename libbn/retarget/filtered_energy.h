@@ -12,7 +12,7 @@
 
 #include "bn/grid.h"
 
-namespace bn {
+namespace bn::retarget {
 
 /// A on the torus.
 struct ResidualKernel {
@@ -46,4 +46,4 @@ class ResidualField {
   Grid<std::int64_t> response_;
 };
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -10,6 +10,7 @@
 #include "retarget/problem.h"
 
 namespace bn {
+using namespace retarget;
 
 std::vector<RetargetTile> solve_motion_set(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                                            int range, const Execution& execution) {

@@ -9,6 +9,7 @@
 #include "retarget/problem.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 constexpr std::int64_t kNobody = -1;

@@ -7,7 +7,7 @@
 
 #include "core/refuse.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
 
 constexpr int kMaxRadius = 32;
@@ -97,4 +97,4 @@ Grid<std::int32_t> shifted(const Grid<std::int32_t>& levels, std::int64_t x, std
   return result;
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -8,7 +8,7 @@
 
 #include "bn/retarget.h"
 
-namespace bn {
+namespace bn::retarget {
 
 /// Cost of a seed that sat on level a and lands on level b. Levels are 0..2^24-1, so L2 stays below 2^48.
 constexpr std::int64_t level_cost(std::int32_t a, std::int32_t b, Metric metric) {
@@ -54,4 +54,4 @@ std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options);
 /// cost(A(q), B(q + k)) with B(w) = D(w + m). So A = shifted(D, -d) and B = shifted(D, m).
 Grid<std::int32_t> shifted(const Grid<std::int32_t>& levels, std::int64_t x, std::int64_t y);
 
-}  // namespace bn
+}  // namespace bn::retarget

@@ -9,16 +9,18 @@
 // Randomness: proposal i of sweep s of round r draws the Philox block of counter (r low, r high and s, stream
 // and chain, i) under the seed.
 
-#include <bit>
 #include <numeric>
 
+#include "anneal/metropolis.h"
 #include "bn/random.h"
 #include "retarget/anneal_engine.h"
 #include "retarget/filtered_energy.h"
-#include "retarget/metropolis.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
+
+using anneal::metropolis_threshold;
+using anneal::single_temperature;
 
 /// Stream of random numbers; chains count up from it.
 constexpr std::uint32_t kScalarStream = 0x53000000u;
@@ -122,10 +124,10 @@ class FilteredEnergy {
 };
 
 template <class Energy>
-class ScalarEngine final : public AnnealEngine {
+class ScalarEngine final : public RetargetEngine {
  public:
   ScalarEngine(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain)
-      : instance_(instance), seed_(seed), chain_(chain), model_(instance) {
+      : RetargetEngine(instance), seed_(seed), chain_(chain), model_(instance) {
     place(instance.identity());
   }
 
@@ -234,7 +236,6 @@ class ScalarEngine final : public AnnealEngine {
     return k >= period - period / 2 ? k - period : k;
   }
 
-  const AnnealInstance& instance_;
   std::uint64_t seed_;
   std::uint32_t chain_;
   Energy model_;
@@ -277,29 +278,11 @@ std::vector<std::int64_t> sample_rises(const AnnealInstance& instance) {
                                           : rises_of<PixelSumEnergy>(instance);
 }
 
-void WorseningCounts::count(std::int64_t change, bool taken) {
-  ++within_reach;
-  if (change <= 0) return;
-  const int log = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(change))) - 1;
-  const auto i = static_cast<std::size_t>(std::min(log, kWorseningClasses - 1));
-  ++tried[i];
-  accepted[i] += taken;
-}
-
-WorseningCounts& WorseningCounts::operator+=(const WorseningCounts& other) {
-  for (std::size_t i = 0; i < tried.size(); ++i) {
-    tried[i] += other.tried[i];
-    accepted[i] += other.accepted[i];
-  }
-  within_reach += other.within_reach;
-  return *this;
-}
-
-std::unique_ptr<AnnealEngine> make_scalar_engine(const AnnealInstance& instance, std::uint64_t seed,
-                                                 std::uint32_t chain) {
+std::unique_ptr<RetargetEngine> make_scalar_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                                   std::uint32_t chain) {
   if (instance.residual_sigma_px > 0.0)
     return std::make_unique<ScalarEngine<FilteredEnergy>>(instance, seed, chain);
   return std::make_unique<ScalarEngine<PixelSumEnergy>>(instance, seed, chain);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

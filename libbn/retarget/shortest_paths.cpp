@@ -1,16 +1,17 @@
 // The exact finish: integer prices, and shortest augmenting paths from all free rows at once.
 //
-// The state is a partial assignment with integer prices in which each assigned row holds a column that is
+// The state is a partial assignment with integer prices in which each assigned row has a column that is
 // cheapest for it. The reduced cost of an arc is its cost + price less the row's cheapest: 0 on assigned
 // arcs, at least 0 on all. A search grows shortest-path trees (Dijkstra) from some free rows together,
-// through columns into the rows that hold them, up to a length `limit`. Raising the price of each column
-// reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then each
-// tree that has reached a free column assigns its root along the path. The trees share no column, so all of
-// them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
+// through columns into the rows that they are assigned to, up to a length `limit`. Raising the price of each
+// column reached at distance t < limit by limit - t keeps the invariant and makes every tree arc cost 0; then
+// each tree that has reached a free column assigns its root along the path. The trees share no column, so all
+// of them may do so. When no row is free the assignment is perfect, and the prices prove it optimal.
 //
-// After an auction nearly all free rows are one unit of cost from content: a few searches from all of them at
-// once, with limit 1, walk along arcs of cost 0 and assign most. Of the last ones a single tree soon floods
-// the tile and takes all the free columns; so these search one by one and stop at the first free column.
+// After an auction nearly all free rows violate complementary slackness by one unit of cost: a few searches
+// from all of them at once, with limit 1, walk along arcs of cost 0 and assign most. Of the last ones a
+// single tree soon floods the tile and takes all the free columns; so these search one by one and stop at the
+// first free column.
 //
 // H. W. Kuhn, "The Hungarian method for the assignment problem", 1955; R. Jonker and A. Volgenant, "A
 // shortest augmenting path algorithm for dense and sparse linear assignment problems", Computing 38, 1987; A.
@@ -24,33 +25,33 @@
 #include <cstring>
 #include <span>
 
-#include "retarget/window-inl.h"
+#include "retarget/candidate_columns-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn {
+namespace bn::retarget {
 namespace HWY_NAMESPACE {
 
 template <class T, bool kSquare>
 class PathSearch {
  public:
-  PathSearch(Market<T>& market, const Execution& execution)
-      : market_(market), execution_(execution), window_(market) {
-    free_discontent_rows(window_, market, T{0}, {0, 0}, market.layout.size(), free_rows_);
+  PathSearch(AuctionState<T>& state, const Execution& execution)
+      : state_(state), execution_(execution), candidates_(state) {
+    free_rows_violating_slackness(candidates_, state, T{0}, {0, 0}, state.layout.size(), free_rows_);
     if (free_rows_.empty()) return;
-    const auto cells = static_cast<std::size_t>(market.layout.cells());
+    const auto cells = static_cast<std::size_t>(state.layout.cells());
     distance_.assign(cells, kUnreached);
     parent_.resize(cells);
     root_.resize(cells);
     // Reserved at their largest: growth by doubling would take more at its peak.
-    reached_.reserve(static_cast<std::size_t>(market.layout.size().area()));
+    reached_.reserve(static_cast<std::size_t>(state.layout.size().area()));
     settled_.reserve(reached_.capacity());
   }
 
   Outcome run() { return assign_together() && assign_one_by_one() ? Outcome::done : Outcome::overflow; }
 
  private:
-  static constexpr T kUnreached = Market<T>::kBlocked;
-  static constexpr T kMostLimit = Market<T>::kMaxPrice / 4;
+  static constexpr T kUnreached = AuctionState<T>::kBlocked;
+  static constexpr T kMostLimit = AuctionState<T>::kMaxPrice / 4;
 
   /// A column reached at a distance beyond the one being settled; `order` makes the order total.
   struct Later {
@@ -71,7 +72,7 @@ class PathSearch {
       if (!raise_prices()) return false;
       augment(free_rows_);
       std::erase_if(free_rows_, [&](std::int32_t row) {
-        return market_.column_of[static_cast<std::size_t>(row)] != kUnassigned;
+        return state_.column_of[static_cast<std::size_t>(row)] != kUnassigned;
       });
       if ((before - free_rows_.size()) * 4 >= before) continue;
       if (reached * 2 >= before || limit >= kMostLimit / 2) return true;
@@ -83,7 +84,7 @@ class PathSearch {
   /// Searches from each free row in turn, up to the nearest free column. False on overflow.
   bool assign_one_by_one() {
     for (const std::int32_t root : free_rows_) {
-      for (T limit = 1; market_.column_of[static_cast<std::size_t>(root)] == kUnassigned;
+      for (T limit = 1; state_.column_of[static_cast<std::size_t>(root)] == kUnassigned;
            limit = std::min<T>(limit * 2, kMostLimit)) {
         grow_trees({&root, 1}, limit, true);
         if (!raise_prices()) return false;
@@ -96,7 +97,7 @@ class PathSearch {
   /// Grows trees from `roots` up to length `limit`, or to the first free column; limit_ is the length
   /// reached.
   void grow_trees(std::span<const std::int32_t> roots, T limit, bool to_first_free) {
-    for (const std::int32_t column : reached_) market_.layout.store(distance_, column, kUnreached);
+    for (const std::int32_t column : reached_) state_.layout.store(distance_, column, kUnreached);
     reached_.clear();
     settled_.clear();
     free_columns_.clear();
@@ -104,15 +105,15 @@ class PathSearch {
     limit_ = limit;
     to_first_free_ = to_first_free;
     for (std::size_t tree = 0; tree < roots.size(); ++tree) {
-      const Holder row = market_.as_holder(roots[tree]);
-      reach_from(row, T{0}, window_.cheapest(row).least, static_cast<std::int32_t>(tree));
+      const Assignee row = state_.as_assignee(roots[tree]);
+      reach_from(row, T{0}, candidates_.cheapest(row).least, static_cast<std::int32_t>(tree));
     }
     T base = 0;
     for (std::size_t next = 0;;) {
       for (; next < settled_.size() && base < limit_; ++next) {
         const std::int32_t column = settled_[next];
         const auto at = static_cast<std::size_t>(column);
-        reach_from(market_.holder[at], base, market_.paid(column), root_[at]);
+        reach_from(state_.assignee[at], base, state_.assigned_cost(column), root_[at]);
         if (next % 8192 == 0) throw_if_stopped(execution_);
       }
       while (!later_.empty() && stale(later_.front())) pop_later();
@@ -133,18 +134,19 @@ class PathSearch {
     later_.pop_back();
   }
 
-  /// Offers the columns of `row`, itself at distance `base` and paying `paid`, their distance through it.
-  HWY_INLINE void reach_from(Holder row, T base, T paid, std::int32_t tree) {
-    const typename Window<T, kSquare>::D d;
+  /// Offers the columns of `row`, itself at distance `base` and paying `assigned_cost`, their distance
+  /// through it.
+  HWY_INLINE void reach_from(Assignee row, T base, T assigned_cost, std::int32_t tree) {
+    const typename CandidateColumns<T, kSquare>::D d;
     const auto too_far = hn::Set(d, static_cast<T>(limit_ + 1));
-    const auto offset = hn::Set(d, static_cast<T>(base - paid));
+    const auto offset = hn::Set(d, static_cast<T>(base - assigned_cost));
     const T* distances = distance_.data() + row.row;
-    window_.for_each_run(row, [&](const Run& run, auto columns, auto seen) HWY_ATTR {
+    candidates_.for_each_span(row, [&](const ColumnSpan& span, auto columns, auto seen) HWY_ATTR {
       const auto reached = hn::Add(seen, offset);
-      const auto known = hn::LoadU(d, distances + run.shift);
+      const auto known = hn::LoadU(d, distances + span.shift);
       const auto nearer = hn::And(hn::Lt(reached, hn::Min(known, too_far)), columns);
       if (HWY_LIKELY(hn::AllFalse(d, nearer))) return;
-      HWY_ALIGN T through[hn::MaxLanes(typename Window<T, kSquare>::D())];
+      HWY_ALIGN T through[hn::MaxLanes(typename CandidateColumns<T, kSquare>::D())];
       hn::Store(reached, d, through);
       std::uint8_t bytes[8] = {};
       hn::StoreMaskBits(d, nearer, bytes);
@@ -152,7 +154,7 @@ class PathSearch {
       std::memcpy(&bits, bytes, sizeof(bits));
       for (; bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctzll(bits);
-        reach(market_.layout.home(row.row + run.shift + lane), row.row, through[lane], base, tree);
+        reach(state_.layout.home(row.row + span.shift + lane), row.row, through[lane], base, tree);
       }
     });
   }
@@ -162,10 +164,10 @@ class PathSearch {
     const auto at = static_cast<std::size_t>(column);
     const bool first = distance_[at] == kUnreached;
     if (first) reached_.push_back(column);
-    market_.layout.store(distance_, column, distance);
+    state_.layout.store(distance_, column, distance);
     parent_[at] = row;
     root_[at] = tree;
-    if (market_.holder[at].row == kUnassigned) {
+    if (state_.assignee[at].row == kUnassigned) {
       if (first) free_columns_.push_back(column);
       if (to_first_free_) limit_ = distance;
     } else if (distance == limit_) {
@@ -182,9 +184,9 @@ class PathSearch {
     for (const std::int32_t column : reached_) {
       const T distance = distance_[static_cast<std::size_t>(column)];
       if (distance >= limit_) continue;
-      const T price = market_.price[static_cast<std::size_t>(column)];
-      if (price > market_.price_limit - (limit_ - distance)) return false;
-      market_.layout.store(market_.price, column, static_cast<T>(price + (limit_ - distance)));
+      const T price = state_.price[static_cast<std::size_t>(column)];
+      if (price > state_.price_limit - (limit_ - distance)) return false;
+      state_.layout.store(state_.price, column, static_cast<T>(price + (limit_ - distance)));
     }
     return true;
   }
@@ -194,21 +196,20 @@ class PathSearch {
     for (std::int32_t column : free_columns_) {
       const auto at = static_cast<std::size_t>(column);
       const std::int32_t root = roots[static_cast<std::size_t>(root_[at])];
-      if (distance_[at] > limit_ || market_.column_of[static_cast<std::size_t>(root)] != kUnassigned)
-        continue;
+      if (distance_[at] > limit_ || state_.column_of[static_cast<std::size_t>(root)] != kUnassigned) continue;
       for (std::int32_t row = kUnassigned; row != root;) {
         row = parent_[static_cast<std::size_t>(column)];
-        const std::int32_t given_up = market_.column_of[static_cast<std::size_t>(row)];
-        market_.column_of[static_cast<std::size_t>(row)] = column;
-        market_.holder[static_cast<std::size_t>(column)] = market_.as_holder(row);
+        const std::int32_t given_up = state_.column_of[static_cast<std::size_t>(row)];
+        state_.column_of[static_cast<std::size_t>(row)] = column;
+        state_.assignee[static_cast<std::size_t>(column)] = state_.as_assignee(row);
         column = given_up;
       }
     }
   }
 
-  Market<T>& market_;
+  AuctionState<T>& state_;
   const Execution& execution_;
-  Window<T, kSquare> window_;
+  CandidateColumns<T, kSquare> candidates_;
   std::vector<std::int32_t> free_rows_;
   std::vector<T> distance_;                 // per column
   std::vector<std::int32_t> parent_;        // per column: the row it was reached from
@@ -222,35 +223,35 @@ class PathSearch {
   bool to_first_free_ = false;
 };
 
-Outcome Complete32(Market<std::int32_t>& market, const Execution& execution) {
-  return market.square ? PathSearch<std::int32_t, true>(market, execution).run()
-                       : PathSearch<std::int32_t, false>(market, execution).run();
+Outcome Complete32(AuctionState<std::int32_t>& state, const Execution& execution) {
+  return state.square ? PathSearch<std::int32_t, true>(state, execution).run()
+                      : PathSearch<std::int32_t, false>(state, execution).run();
 }
 
-Outcome Complete64(Market<std::int64_t>& market, const Execution& execution) {
-  return market.square ? PathSearch<std::int64_t, true>(market, execution).run()
-                       : PathSearch<std::int64_t, false>(market, execution).run();
+Outcome Complete64(AuctionState<std::int64_t>& state, const Execution& execution) {
+  return state.square ? PathSearch<std::int64_t, true>(state, execution).run()
+                      : PathSearch<std::int64_t, false>(state, execution).run();
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace bn
+}  // namespace bn::retarget
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::retarget {
 
 HWY_EXPORT(Complete32);
 HWY_EXPORT(Complete64);
 
 template <>
-Outcome complete_by_shortest_paths(Market<std::int32_t>& market, const Execution& execution) {
-  return HWY_DYNAMIC_DISPATCH(Complete32)(market, execution);
+Outcome complete_by_shortest_paths(AuctionState<std::int32_t>& state, const Execution& execution) {
+  return HWY_DYNAMIC_DISPATCH(Complete32)(state, execution);
 }
 
 template <>
-Outcome complete_by_shortest_paths(Market<std::int64_t>& market, const Execution& execution) {
-  return HWY_DYNAMIC_DISPATCH(Complete64)(market, execution);
+Outcome complete_by_shortest_paths(AuctionState<std::int64_t>& state, const Execution& execution) {
+  return HWY_DYNAMIC_DISPATCH(Complete64)(state, execution);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget
 #endif

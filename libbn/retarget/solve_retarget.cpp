@@ -9,6 +9,7 @@
 #include "retarget/assignment.h"
 
 namespace bn {
+namespace retarget {
 namespace {
 
 /// Where the auction starts: a quarter of the usual distance between a level and the nearest one in its
@@ -52,21 +53,21 @@ RetargetTile measured_tile(const Grid<std::int32_t>& levels, const RetargetOptio
 template <class T>
 std::optional<RetargetTile> solve_with(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                                        const Execution& execution, ProgressMeter& progress) {
-  Market<T> market(levels, options);
-  market.refine(level_scale(options.metric));
+  AuctionState<T> state(levels, options);
+  state.refine(level_scale(options.metric));
   for (std::int64_t epsilon = first_epsilon(levels, options);;) {
-    const AuctionLevel level = run_auction(market, epsilon, execution, progress);
+    const AuctionLevel level = run_auction(state, epsilon, execution, progress);
     if (level.outcome == Outcome::overflow) {
       if constexpr (sizeof(T) == 4) return std::nullopt;
-      market = Market<T>(levels, options);  // the finish needs no auction
-      market.refine(level_scale(options.metric));
+      state = AuctionState<T>(levels, options);  // the finish needs no auction
+      state.refine(level_scale(options.metric));
       break;
     }
     if (level.outcome == Outcome::incomplete) break;
     if (options.gap > 0.0) {
       const std::int64_t bound =
-          certified_lower_bound(levels, options, market.pixel_prices(), kPriceScaleBits);
-      Grid<Offset> move = market.moves(options);
+          certified_lower_bound(levels, options, state.pixel_prices(), kPriceScaleBits);
+      Grid<Offset> move = state.moves(options);
       if (close_enough(retarget_energy(levels, move, options), bound, options.gap)) {
         return measured_tile(levels, options, std::move(move), bound);
       }
@@ -74,10 +75,10 @@ std::optional<RetargetTile> solve_with(const Grid<std::int32_t>& levels, const R
     if (level.epsilon == 1) break;
     epsilon = std::max<std::int64_t>(1, level.epsilon / 4);
   }
-  market.coarsen(level_scale(options.metric));
-  if (complete_by_shortest_paths(market, execution) == Outcome::overflow) return std::nullopt;
-  return measured_tile(levels, options, market.moves(options),
-                       certified_lower_bound(levels, options, market.pixel_prices(), 0));
+  state.coarsen(level_scale(options.metric));
+  if (complete_by_shortest_paths(state, execution) == Outcome::overflow) return std::nullopt;
+  return measured_tile(levels, options, state.moves(options),
+                       certified_lower_bound(levels, options, state.pixel_prices(), 0));
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
   for (std::int64_t epsilon = first_epsilon(levels, options); epsilon > 1; epsilon /= 4) ++passes;
   ProgressMeter progress(execution, levels.count() * static_cast<std::uint64_t>(passes));
   std::optional<RetargetTile> tile;
-  if (width != PriceWidth::bits64 && largest_cost * kPriceScale < Market<std::int32_t>::kMaxCost) {
+  if (width != PriceWidth::bits64 && largest_cost * kPriceScale < AuctionState<std::int32_t>::kMaxCost) {
     tile = solve_with<std::int32_t>(levels, options, execution, progress);
   }
   if (!tile && width != PriceWidth::bits32)
@@ -112,9 +113,11 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
   return *std::move(tile);
 }
 
+}  // namespace retarget
+
 RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
                             const Execution& execution) {
-  return solve_with_width(levels, options, execution, PriceWidth::automatic);
+  return retarget::solve_with_width(levels, options, execution, retarget::PriceWidth::automatic);
 }
 
 }  // namespace bn

@@ -34,10 +34,16 @@
 #include <cstdint>
 #include <cstring>
 
+#include "anneal/metropolis.h"
 #include "retarget/anneal_engine.h"
-#include "retarget/metropolis.h"
 
-namespace bn {
+namespace bn::retarget {
+
+using anneal::kLeastMinusLog;
+using anneal::kLn2Single;
+using anneal::kLogCoefficients;
+using anneal::metropolis_threshold;
+using anneal::single_temperature;
 
 /// How a displacement k becomes a byte per axis. On a torus too small to tell k from its other names (up to
 /// four radii) bytes are taken modulo the side, else modulo 256.
@@ -330,4 +336,4 @@ void sweep_volume_l1(SweepState<std::int32_t>& state, const AnnealInstance& inst
 void sweep_volume_l2(SweepState<std::int32_t>& state, const AnnealInstance& instance, const Sweep& sweep,
                      const Band& band, SweepCounts& result);
 
-}  // namespace bn
+}  // namespace bn::retarget

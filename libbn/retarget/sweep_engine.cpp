@@ -6,7 +6,7 @@
 
 #include "bn/random.h"
 
-namespace bn {
+namespace bn::retarget {
 namespace {
 
 /// Streams of random numbers; chains count up from them, so they lie far apart.
@@ -129,13 +129,13 @@ SweepState<Lane>::SweepState(const AnnealInstance& instance, int longest_s_x)
 namespace {
 
 template <Metric metric, class Lane>
-class SweepEngine final : public AnnealEngine {
+class SweepEngine final : public RetargetEngine {
  public:
   using Kernel = void (*)(SweepState<Lane>&, const AnnealInstance&, const Sweep&, const Band&, SweepCounts&);
 
   /// Without a kernel sweeps are made plainly.
   SweepEngine(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain, Kernel kernel)
-      : instance_(instance),
+      : RetargetEngine(instance),
         seed_(seed),
         chain_(chain),
         kernel_(kernel),
@@ -226,7 +226,6 @@ class SweepEngine final : public AnnealEngine {
     return result;
   }
 
-  const AnnealInstance& instance_;
   std::uint64_t seed_;
   std::uint32_t chain_;
   Kernel kernel_;
@@ -237,15 +236,15 @@ class SweepEngine final : public AnnealEngine {
 };
 
 template <Metric metric, class Lane>
-std::unique_ptr<AnnealEngine> make(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain,
-                                   typename SweepEngine<metric, Lane>::Kernel kernel) {
+std::unique_ptr<RetargetEngine> make(const AnnealInstance& instance, std::uint64_t seed, std::uint32_t chain,
+                                     typename SweepEngine<metric, Lane>::Kernel kernel) {
   return std::make_unique<SweepEngine<metric, Lane>>(instance, seed, chain, kernel);
 }
 
 }  // namespace
 
-std::unique_ptr<AnnealEngine> make_sweep_engine(const AnnealInstance& instance, std::uint64_t seed,
-                                                std::uint32_t chain) {
+std::unique_ptr<RetargetEngine> make_sweep_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                                  std::uint32_t chain) {
   // A change of energy and the terms it is added from must fit the lane.
   const bool fits_16 = instance.largest_change < (1 << 15), fits_32 = instance.largest_change < (1 << 30);
   if (instance.depth > 1) {
@@ -269,10 +268,10 @@ std::unique_ptr<AnnealEngine> make_sweep_engine(const AnnealInstance& instance, 
   return make<Metric::l1, std::int64_t>(instance, seed, chain, nullptr);
 }
 
-std::unique_ptr<AnnealEngine> make_engine(const AnnealInstance& instance, std::uint64_t seed,
-                                          std::uint32_t chain) {
+std::unique_ptr<RetargetEngine> make_engine(const AnnealInstance& instance, std::uint64_t seed,
+                                            std::uint32_t chain) {
   return instance.residual_sigma_px > 0.0 ? make_scalar_engine(instance, seed, chain)
                                           : make_sweep_engine(instance, seed, chain);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget

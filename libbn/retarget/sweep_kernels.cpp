@@ -13,7 +13,7 @@
 #include "retarget/sweep_rows-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace bn::HWY_NAMESPACE {
+namespace bn::retarget::HWY_NAMESPACE {
 
 #if HWY_TARGET == HWY_SCALAR
 
@@ -102,11 +102,11 @@ void VolumeL2Of32(SweepState<std::int32_t>& state, const AnnealInstance& instanc
   sweep_band<Metric::l2, false, true>(state, instance, sweep, band, result);
 }
 
-}  // namespace bn::HWY_NAMESPACE
+}  // namespace bn::retarget::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace bn {
+namespace bn::retarget {
 
 HWY_EXPORT(L1Single16);
 HWY_EXPORT(L1Of16);
@@ -146,5 +146,5 @@ void sweep_volume_l2(SweepState<std::int32_t>& state, const AnnealInstance& inst
   HWY_DYNAMIC_DISPATCH(VolumeL2Of32)(state, instance, sweep, band, result);
 }
 
-}  // namespace bn
+}  // namespace bn::retarget
 #endif

@@ -19,7 +19,7 @@
 
 #if HWY_TARGET != HWY_SCALAR
 HWY_BEFORE_NAMESPACE();
-namespace bn::HWY_NAMESPACE {
+namespace bn::retarget::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -352,7 +352,7 @@ class RowSweeper {
   std::int64_t accepted_ = 0, changed_ = 0, change_ = 0;
 };
 
-}  // namespace bn::HWY_NAMESPACE
+}  // namespace bn::retarget::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 #endif
 

@@ -16,6 +16,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+using namespace spectrum;
 namespace {
 
 constexpr double kDeviations = 6.0;

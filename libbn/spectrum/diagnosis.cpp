@@ -16,6 +16,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+using namespace spectrum;
 namespace {
 
 /// The lowest band of white noise scatters; a picture has far more than that there.

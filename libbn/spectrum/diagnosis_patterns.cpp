@@ -173,6 +173,8 @@ std::optional<Finding> find_repeated(const Samples& samples) {
 
 }  // namespace spectrum
 
+using namespace spectrum;
+
 std::vector<Finding> diagnose_alpha(std::span<const Samples> channels) {
   if (channels.size() != 2 && channels.size() != 4) return {};
   const Samples& alpha = channels.back();

@@ -11,7 +11,7 @@
 
 #include "bn/execution.h"
 
-namespace bn {
+namespace bn::spectrum {
 
 /// Sum of terms[0..count-1] by halves.
 inline double sum_by_halves(const double* terms, std::int64_t count) {
@@ -48,4 +48,4 @@ double fixed_order_sum(const Execution& execution, std::int64_t count, const Ter
   return sum_by_halves(partial.data(), chunks);
 }
 
-}  // namespace bn
+}  // namespace bn::spectrum

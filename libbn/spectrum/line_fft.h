@@ -5,7 +5,7 @@
 #include <complex>
 #include <memory>
 
-namespace bn {
+namespace bn::spectrum {
 
 /// Transforms of one length; T float or double. Not thread safe: each thread uses one of its own.
 /// Neither direction scales: inverse(forward(x)) = length * x. Results and sources never overlap.
@@ -28,4 +28,4 @@ class LineFft {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace bn
+}  // namespace bn::spectrum

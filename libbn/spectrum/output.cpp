@@ -10,6 +10,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+using namespace spectrum;
 namespace {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{}", value) : "null"; }

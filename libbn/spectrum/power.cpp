@@ -16,6 +16,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+namespace spectrum {
 namespace {
 
 /// 2^-exponent(magnitude), kept where both it and its products stay normal.
@@ -68,6 +69,10 @@ void check_flat(const PowerSpectrum& power, std::string_view where) {
                .limit = "a line or a picture",
                .remedy = "project it first"});
 }
+
+}  // namespace spectrum
+
+using namespace spectrum;
 
 double PowerSpectrum::at(std::int64_t kx, std::int64_t ky, std::int64_t kz) const {
   int x = wrap(kx, shape.width), y = wrap(ky, shape.height), z = wrap(kz, shape.depth);

@@ -19,6 +19,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+using namespace spectrum;
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();

@@ -21,6 +21,7 @@
 #include "spectrum/transform.h"
 
 namespace bn {
+namespace spectrum {
 namespace {
 
 /// Longest table of counts for a small picture.
@@ -116,6 +117,10 @@ bool is_permutation_of_a_range(std::span<const double> values) {
   }
   return true;
 }
+
+}  // namespace spectrum
+
+using namespace spectrum;
 
 std::vector<double> midranks(std::span<const double> values, const Execution& execution) {
   const auto count = static_cast<std::int64_t>(values.size());

@@ -21,6 +21,7 @@
 #include "spectrum/line_fft.h"
 
 namespace bn {
+namespace spectrum {
 namespace {
 
 /// Lines gathered at once: eight complex doubles fill two cache lines.
@@ -183,6 +184,15 @@ HalfSpectrum<T> transform_rows(Shape shape, const std::function<void(std::int64_
   return spectrum;
 }
 
+template void check_finite(std::span<const float>, const Shape&, std::string_view, const Execution&);
+template void check_finite(std::span<const double>, const Shape&, std::string_view, const Execution&);
+template HalfSpectrum<double> transform_rows(Shape, const std::function<void(std::int64_t, double*)>&,
+                                             const Execution&);
+
+}  // namespace spectrum
+
+using namespace spectrum;
+
 template <class T>
 HalfSpectrum<T> transform(std::span<const T> values, Shape shape, const Execution& execution) {
   check_shape(shape, static_cast<std::int64_t>(values.size()), "transform");
@@ -222,12 +232,8 @@ std::vector<T> inverse_transform(HalfSpectrum<T> spectrum, const Execution& exec
   return values;
 }
 
-template void check_finite(std::span<const float>, const Shape&, std::string_view, const Execution&);
-template void check_finite(std::span<const double>, const Shape&, std::string_view, const Execution&);
 template HalfSpectrum<float> transform(std::span<const float>, Shape, const Execution&);
 template HalfSpectrum<double> transform(std::span<const double>, Shape, const Execution&);
-template HalfSpectrum<double> transform_rows(Shape, const std::function<void(std::int64_t, double*)>&,
-                                             const Execution&);
 template std::vector<float> inverse_transform(HalfSpectrum<float>, const Execution&);
 template std::vector<double> inverse_transform(HalfSpectrum<double>, const Execution&);
 

@@ -8,7 +8,7 @@
 
 #include "bn/spectrum.h"
 
-namespace bn {
+namespace bn::spectrum {
 
 /// Throws invalid_input, naming `where`, unless every side is 1..kMaxSpectrumSide and `count` values
 /// fill the shape.
@@ -35,4 +35,4 @@ template <class T>
 HalfSpectrum<T> transform_rows(Shape shape, const std::function<void(std::int64_t row, T* line)>& load_row,
                                const Execution& execution);
 
-}  // namespace bn
+}  // namespace bn::spectrum

@@ -1,10 +1,12 @@
 // Protects: a bake stopped in the middle of a motion set that it anneals goes on with what its variants had
 // done and ends with the bytes of an uninterrupted one; a variant that was finished is not made again.
+#include "anneal/checkpoint.h"
 #include "bn/error.h"
 #include "fixtures.h"
-#include "retarget/anneal_checkpoint.h"
+#include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 constexpr const char* kRecipe = R"(version = 1
@@ -77,7 +79,7 @@ TEST_F(AnnealedSet, DoesNotMakeAFinishedVariantAgain) {
   // The first variant's result becomes another one, which only a checkpoint can know: its start.
   const fs::path file = out / "atlas.png.checkpoint";
   const std::string set = bytes_of(file);
-  auto variants = decode_set_checkpoint(set, fingerprint_in(set), kVariants);
+  auto variants = anneal::decode_set_checkpoint(set, fingerprint_in(set), kVariants);
   ASSERT_FALSE(variants.front().empty());
   EXPECT_TRUE(variants.back().empty()) << "the last one had not begun";
   AnnealProblem problem;
@@ -86,13 +88,14 @@ TEST_F(AnnealedSet, DoesNotMakeAFinishedVariantAgain) {
   problem.retarget.motion = {-1, -1};
   const AnnealInstance instance(problem, 0);
   const std::uint64_t fingerprint = fingerprint_in(variants.front());
-  RunRecord record = decode_checkpoint(variants.front(), fingerprint, 1, instance);
+  anneal::RunRecord record = anneal::decode_checkpoint(variants.front(), fingerprint, 1,
+                                                       placement_bytes(instance.identity()).size());
   const std::int64_t start = anneal_energy(problem, Grid<Offset>({32, 32}, problem.retarget.motion));
   EXPECT_LT(record.chains.at(0).best_energy, start);
-  record.chains[0].now = record.chains[0].best = instance.identity();
+  record.chains[0].now = record.chains[0].best = placement_bytes(instance.identity());
   record.chains[0].best_energy = start;
-  variants.front() = encode_checkpoint(fingerprint, record);
-  write_bytes(file, encode_set_checkpoint(fingerprint_in(set), record.proposals, variants));
+  variants.front() = anneal::encode_checkpoint(fingerprint, record);
+  write_bytes(file, anneal::encode_set_checkpoint(fingerprint_in(set), record.proposals, variants));
 
   const auto resumed = bake_into(out).jobs;
   const auto set_of = [](const std::vector<JobRecord>& jobs) {

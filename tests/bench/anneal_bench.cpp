@@ -7,6 +7,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 /// A permutation of grey levels without structure: annealing does not care for more.
@@ -21,7 +22,7 @@ AnnealProblem grey_problem(int side) {
 }
 
 /// Rounds at a constant temperature, in equilibrium from a warm-up on.
-void run(benchmark::State& state, AnnealEngine& engine, double temperature, int threads) {
+void run(benchmark::State& state, RetargetEngine& engine, double temperature, int threads) {
   constexpr int kSweeps = 64;
   std::int64_t round = 0, proposals = 0;
   for (; round < 10; ++round) engine.round(round, kSweeps, 4.0 * temperature, {.threads = threads});

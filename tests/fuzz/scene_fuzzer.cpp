@@ -6,12 +6,13 @@
 #include <cstdlib>
 
 #include "bn/error.h"
-#include "bn/runtime.h"
-#include "runtime/scene.h"
+#include "bn/render.h"
+#include "render/scene.h"
 
 namespace {
 
 using namespace bn;
+using namespace bn::render;
 
 void require(bool condition, const char* what) {
   if (condition) return;

@@ -26,7 +26,8 @@ TEST(Baselines, ArePermutations) {
     EXPECT_TRUE(is_permutation(r2_mask(size)));
   }
   for (const int side : {1, 2, 8, 256}) EXPECT_TRUE(is_permutation(bayer_mask(side)));
-  for (const auto& slice : golden_ratio_slices(white_noise_mask({16, 8}, 1), 40)) EXPECT_TRUE(is_permutation(slice));
+  for (const auto& slice : golden_ratio_slices(white_noise_mask({16, 8}, 1), 40))
+    EXPECT_TRUE(is_permutation(slice));
 }
 
 TEST(Baselines, BayerIsThePublishedMatrix) {
@@ -59,8 +60,8 @@ TEST(Baselines, GradientNoiseAndR2FollowTheirFormulas) {
     return fraction(52.9829189L * fraction(0.06711056L * x + 0.00583715L * y));
   };
   const auto r2_value = [&](int x, int y) { return fraction(x / g + y / (g * g)); };
-  // A share of the pixels lies below a value: ranks and values agree to within what the pattern's discrepancy allows,
-  // and in order exactly (but for ties).
+  // A share of the pixels lies below a value: ranks and values agree to within what the pattern's discrepancy
+  // allows, and in order exactly (but for ties).
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x + 1 < 40; ++x) {
       if (std::abs(gradient_value(x, y) - gradient_value(x + 1, y)) > 1e-9L) {
@@ -77,8 +78,9 @@ TEST(Baselines, GoldenRatioRunsThroughEachPixelEvenly) {
   const auto slices = golden_ratio_slices(mask, 13);
   EXPECT_EQ(slices[0], mask);
   for (std::size_t t = 1; t < slices.size(); ++t) {
-    const auto shift = static_cast<std::uint32_t>(256 * (static_cast<double>(t) / 1.618033988749895 -
-                                                         std::floor(static_cast<double>(t) / 1.618033988749895)));
+    const auto shift =
+        static_cast<std::uint32_t>(256 * (static_cast<double>(t) / 1.618033988749895 -
+                                          std::floor(static_cast<double>(t) / 1.618033988749895)));
     for (std::size_t i = 0; i < mask.count(); ++i) ASSERT_EQ(slices[t][i], (mask[i] + shift) % 256);
   }
 }

@@ -12,6 +12,7 @@
 #include "noise/gaussian_kernel.h"
 
 namespace bn {
+using namespace noise;
 namespace {
 
 void expect_refused(const VoidAndClusterOptions& options, const std::string& where) {

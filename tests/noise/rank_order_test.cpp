@@ -12,6 +12,7 @@
 #include "bn/random.h"
 
 namespace bn {
+using namespace noise;
 namespace {
 
 /// The definition: a stable sort.

@@ -61,7 +61,7 @@ class PlainPattern {
     is_set[pixel] = sign > 0;
   }
 
-  GaussianKernel kernel_;
+  noise::GaussianKernel kernel_;
 };
 
 inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOptions& options) {

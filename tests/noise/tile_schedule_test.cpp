@@ -13,6 +13,7 @@
 #include <vector>
 
 namespace bn {
+using namespace noise;
 namespace {
 
 /// Whether they touch on the torus of the field, at corners too.

@@ -10,6 +10,7 @@
 #include "reference_void_and_cluster.h"
 
 namespace bn {
+using namespace noise;
 
 // Names a failing case.
 void PrintTo(const VoidAndClusterOptions& options, std::ostream* out) {

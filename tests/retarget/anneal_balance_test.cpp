@@ -8,6 +8,7 @@
 #include "retarget/sweep.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 TEST(Metropolis, ThresholdsFollowTheExponential) {
@@ -24,7 +25,8 @@ TEST(Metropolis, ThresholdsFollowTheExponential) {
       if (y % 100 == 0)
         sweep.key_even = mix(sweep.key_even + 1, 3), sweep.key_odd = mix(sweep.key_odd + 1, 5);
       for (int x = 0; x < kWidth; ++x) {
-        const std::int64_t threshold = metropolis_threshold(pair_bits(sweep, kWidth, x, y), temperature);
+        const std::int64_t threshold =
+            anneal::metropolis_threshold(pair_bits(sweep, kWidth, x, y), temperature);
         ++count[static_cast<std::size_t>(std::min<std::int64_t>(threshold / step, kBins))];
       }
     }
@@ -40,28 +42,6 @@ TEST(Metropolis, ThresholdsFollowTheExponential) {
       ++bins;
     }
     EXPECT_LT(chi_square, critical_chi_square(bins)) << temperature;
-  }
-}
-
-TEST(Metropolis, ThresholdsLieBetweenZeroAndThatOfBitsZero) {
-  // So bits need not be drawn for a change that is no rise, nor for one above the threshold of bits 0.
-  const float most = minus_log(0);
-  for (std::uint64_t bits = 0; bits < (std::uint64_t{1} << 32); bits += 512) {
-    const float log = minus_log(static_cast<std::uint32_t>(bits));
-    ASSERT_GE(log, 0.0f);
-    ASSERT_LE(log, most);
-  }
-}
-
-TEST(Metropolis, TheLogarithmIsAsAccurateAsStated) {
-  for (std::uint64_t bits = 0; bits < (std::uint64_t{1} << 32); bits += 0x1357) {
-    const double u = (static_cast<double>(bits >> 9) + 0.5) * 0x1p-23;
-    EXPECT_NEAR(minus_log(static_cast<std::uint32_t>(bits)), -std::log(u), 3e-6);
-  }
-  for (std::uint32_t bits = 0; bits < 100000; bits += 512) {
-    const double u = (static_cast<double>(bits >> 9) + 0.5) * 0x1p-23;
-    EXPECT_NEAR(minus_log(bits), -std::log(u), 3e-6);
-    EXPECT_LE(metropolis_threshold(bits, 5.0f), metropolis_threshold(0, 5.0f));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 AnnealProblem problem_of(Extent size, const RetargetOptions& options, std::int32_t bound, int channels = 1) {

@@ -9,14 +9,15 @@
 #include <cstring>
 #include <limits>
 
-#include "bn/anneal.h"
+#include "anneal/checkpoint.h"
 #include "bn/random.h"
+#include "bn/retarget_anneal.h"
 #include "bn/texture.h"
 #include "reference.h"
-#include "retarget/anneal_checkpoint.h"
-#include "retarget/anneal_engine.h"
+#include "retarget/anneal_task.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 AnnealProblem problem_of(Grid<std::int32_t> levels, const RetargetOptions& options) {
@@ -34,13 +35,13 @@ TEST(AnnealHardCases, TenThousandMillionProposals) {
   options.proposals = 10'160'000'000;  // the last 64th is spent at 0, so it
                                        // begins just after 1e10
   const AnnealInstance instance(problem, 0);
-  ChainRecord chain;
+  anneal::ChainRecord chain;
   chain.proposals = chain.cooling.step = 9'999'000'000;
   chain.accepted = 5'000'000'000;
   chain.round = (std::int64_t{1} << 32) - 20;
-  chain.now = chain.best = instance.identity();
-  RunRecord record{.proposals = options.proposals, .beats = 1000, .chains = {chain}};
-  options.checkpoint.resume = encode_checkpoint(fingerprint_of(problem, options), record);
+  chain.now = chain.best = placement_bytes(instance.identity());
+  anneal::RunRecord record{.proposals = options.proposals, .slices = 1000, .chains = {chain}};
+  options.checkpoint.resume = anneal::encode_checkpoint(fingerprint_of(problem, options), record);
   Annealing run(problem, options, {.threads = 1});
   const AnnealState before = run.state();
   EXPECT_EQ(before.proposals, 9'999'000'000);

@@ -4,12 +4,13 @@
 
 #include <utility>
 
-#include "bn/anneal.h"
 #include "bn/error.h"
+#include "bn/retarget_anneal.h"
 #include "reference.h"
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 struct Setting {
@@ -40,7 +41,7 @@ void expect_true(const AnnealProblem& problem, const Annealing& annealing) {
   EXPECT_LE(annealing.state().best_energy, annealing.result().tile.start_energy);
 }
 
-TEST(AnnealParts, AnyMixtureOfBeatsAndSweepsEndsTheSame) {
+TEST(AnnealParts, AnyMixtureOfSlicesAndSweepsEndsTheSame) {
   for (const auto& [problem, options] : settings()) {
     const AnnealResult whole = anneal_retarget(problem, options);
     for (const int pattern : {0, 1, 3, 200}) {
@@ -48,9 +49,9 @@ TEST(AnnealParts, AnyMixtureOfBeatsAndSweepsEndsTheSame) {
       Annealing annealing(problem, options, {.threads = 2}, &trace);
       expect_true(problem, annealing);
       for (int i = 0; !annealing.state().done; ++i) {
-        // Pattern 0: beats only; else so many sweeps, a beat, and so on.
+        // Pattern 0: slices only; else so many sweeps, a slice, and so on.
         if (pattern == 0 || i % (pattern + 1) == pattern) {
-          annealing.beat();
+          annealing.advance();
         } else {
           annealing.sweep();
         }
@@ -63,7 +64,7 @@ TEST(AnnealParts, AnyMixtureOfBeatsAndSweepsEndsTheSame) {
       EXPECT_EQ(trace[0].proposals, 0);
       EXPECT_EQ(trace[0].energy, whole.tile.start_energy);
       EXPECT_EQ(trace[trace.size() - 1].proposals, annealing.state().proposals);
-      annealing.beat();
+      annealing.advance();
       annealing.sweep();
       EXPECT_EQ(annealing.result().tile.move, whole.tile.move) << "it went on after its end";
     }
@@ -76,7 +77,7 @@ TEST(AnnealParts, AStoppedRunIsMadeAgain) {
     Annealing stopped(problem, options);
     std::int64_t before = -1;
     for (int i = 0; i < 40; ++i) {
-      i % 3 == 0 ? stopped.beat() : stopped.sweep();
+      i % 3 == 0 ? stopped.advance() : stopped.sweep();
       const AnnealResult result = stopped.result();
       if (result.proposals == std::exchange(before, result.proposals) || result.proposals == 0) continue;
       AnnealOptions again = options;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <thread>
 
-#include "bn/anneal.h"
 #include "bn/error.h"
+#include "bn/retarget_anneal.h"
 #include "reference.h"
 
 namespace bn {
@@ -35,14 +35,13 @@ TEST(Anneal, EveryScheduleComesNearTheOptimum) {
     AnnealOptions options;
     options.schedule = name;
     options.proposals = 40'000'000;
-    options.lower_bound = exact.energy;
     const auto result = anneal_retarget(problem, options);
     SCOPED_TRACE(std::string(name));
     expect_true(problem, result);
     EXPECT_GE(result.tile.energy, exact.energy);
     EXPECT_LE(static_cast<double>(result.tile.energy),
               (name == "greedy" ? 2.5 : 1.5) * static_cast<double>(exact.energy));
-    EXPECT_EQ(result.tile.lower_bound, exact.energy);
+    EXPECT_EQ(result.tile.lower_bound, 0) << "annealing proves nothing";
   }
 }
 
@@ -195,10 +194,6 @@ TEST(Anneal, BadOptionsAreNamed) {
             }).find("chains"),
             std::string::npos);
   EXPECT_NE(names([](auto& o) { o.swap_distance_px = 13; }).find("swap_distance"), std::string::npos);
-  EXPECT_NE(names([](auto& o) {
-              o.custom = ExponentialCooling{1.0, 1.1};
-            }).find("factor"),
-            std::string::npos);
   EXPECT_NE(names([](auto& o) { o.parameters.factor = 1.1; }).find("factor"), std::string::npos);
   EXPECT_NE(names([](auto& o) { o.parameters.slope = 1.0; }).find("slope"), std::string::npos);
   EXPECT_NE(names([](auto& o) {

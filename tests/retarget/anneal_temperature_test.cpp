@@ -12,6 +12,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 AnnealProblem problem_of(Grid<std::int32_t> levels) {

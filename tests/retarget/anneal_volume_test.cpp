@@ -11,6 +11,7 @@
 #include "boltzmann.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 struct Box {

@@ -15,6 +15,7 @@
 #include "retarget/anneal_engine.h"
 
 namespace bn {
+using namespace retarget;
 
 /// Chi-square's value that chance exceeds once in 1e5 (Wilson and Hilferty 1931).
 inline double critical_chi_square(int degrees) {
@@ -42,7 +43,7 @@ inline std::map<std::int64_t, double> boltzmann(const std::vector<std::vector<st
 }
 
 /// Whether an engine's states have energies as `shares` says.
-inline void expect_samples(AnnealEngine& engine, const std::map<std::int64_t, double>& shares,
+inline void expect_samples(anneal::Engine& engine, const std::map<std::int64_t, double>& shares,
                            double temperature, int fewest_bins) {
   // Far enough apart to count as independent: each seed is offered some tens of swaps in between.
   constexpr int kSamples = 10000, kApart = 64;

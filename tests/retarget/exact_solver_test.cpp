@@ -11,6 +11,7 @@
 #include "retarget/assignment.h"
 
 namespace bn {
+using namespace retarget;
 namespace {
 
 const Execution kOneThread{.threads = 1};
@@ -98,11 +99,11 @@ TEST(ExactSolver, PricesThatOutgrowTheirLimitAreNoticed) {
   const auto levels = random_levels({16, 16}, 8, 256);
   const RetargetOptions options{.step = {5, 4}};
   ProgressMeter progress(kOneThread, 1);
-  Market<std::int32_t> market(levels, options);
-  market.refine(level_scale(options.metric));
-  market.price_limit = 64;
-  EXPECT_EQ(run_auction(market, 4, kOneThread, progress).outcome, Outcome::overflow);
-  Market<std::int32_t> fresh(levels, options);
+  AuctionState<std::int32_t> state(levels, options);
+  state.refine(level_scale(options.metric));
+  state.price_limit = 64;
+  EXPECT_EQ(run_auction(state, 4, kOneThread, progress).outcome, Outcome::overflow);
+  AuctionState<std::int32_t> fresh(levels, options);
   fresh.price_limit = 2;
   EXPECT_EQ(complete_by_shortest_paths(fresh, kOneThread), Outcome::overflow);
 }
@@ -110,10 +111,10 @@ TEST(ExactSolver, PricesThatOutgrowTheirLimitAreNoticed) {
 TEST(ExactSolver, TheExactFinishNeedsNoAuction) {
   for (const RetargetOptions& options : option_spread(3)) {
     const auto levels = random_levels({24, 24}, 9, 256);
-    Market<std::int32_t> market(levels, options);
-    ASSERT_EQ(complete_by_shortest_paths(market, kOneThread), Outcome::done);
-    const std::int64_t energy = retarget_energy(levels, market.moves(options), options);
-    EXPECT_EQ(energy, certified_lower_bound(levels, options, market.pixel_prices(), 0));
+    AuctionState<std::int32_t> state(levels, options);
+    ASSERT_EQ(complete_by_shortest_paths(state, kOneThread), Outcome::done);
+    const std::int64_t energy = retarget_energy(levels, state.moves(options), options);
+    EXPECT_EQ(energy, certified_lower_bound(levels, options, state.pixel_prices(), 0));
     EXPECT_EQ(energy, solve_retarget(levels, options, kOneThread).energy);
   }
 }

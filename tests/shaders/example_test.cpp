@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "bn/noise.h"
+#include "bn/render.h"
 #include "bn/retarget.h"
-#include "bn/runtime.h"
 #include "bn/texture.h"
+#include "gpu/pass.h"
 #include "quantise.h"
-#include "runtime/vulkan_passes.h"
 
 // Drivers keep memory to the end of the process.
 extern "C" const char* __lsan_default_suppressions() {
@@ -20,6 +20,7 @@ extern "C" const char* __lsan_default_suppressions() {
 }
 
 namespace bn::test {
+using namespace gpu;
 namespace {
 
 constexpr std::uint32_t kExample[] =

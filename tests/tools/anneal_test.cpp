@@ -7,9 +7,9 @@
 
 #include <csignal>
 
-#include "bn/anneal.h"
 #include "bn/bake.h"
 #include "bn/error.h"
+#include "bn/retarget_anneal.h"
 #include "process.h"
 #include "textures.h"
 

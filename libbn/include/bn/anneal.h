@@ -1,8 +1,10 @@
-// bn/anneal.h - floor 1 (retarget): simulated annealing of retarget tiles.
+// bn/anneal.h - floor 1 (anneal): simulated annealing, whatever it is that is annealed.
 //
-// The exact solver (bn/retarget.h) proves the optimum of one channel's L1 or L2 energy. Annealing handles
-// energies it cannot: several channels at once, and residuals seen through a filter. On the energies that
-// both handle, the exact optimum says how good annealing is; docs/annealing.md shows it.
+// Cooling schedules, the options of a run, its trace and its checkpoints. A room that anneals something gives
+// the driver of this room an engine (libbn/anneal/engine.h); bn/retarget_anneal.h is the one that exists.
+//
+// Five units of time stand inside each other: a proposal, a sweep, a round, a slice and a run. The glossary
+// (docs/glossary.md) says what each of them is.
 //
 // Source of the method: S. Kirkpatrick, C. D. Gelatt, M. P. Vecchi, "Optimization by simulated annealing",
 // Science 220 (1983); acceptance rule: N. Metropolis et al., J. Chem. Phys. 21 (1953).
@@ -14,16 +16,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
-
-#include "bn/execution.h"
-#include "bn/grid.h"
-#include "bn/retarget.h"
 
 namespace bn {
 
@@ -133,41 +130,6 @@ CoolingSchedule make_schedule(std::string_view name, double start, double end, s
 /// all larger ones too.
 inline constexpr int kWorseningClasses = 24;
 
-// --- the problem -----------------------------------------------------------------------------------
-
-/// One image channel that moves with the seeds.
-struct AnnealChannel {
-  Grid<std::int32_t> levels;  ///< each 0..2^24-1; all channels of one size
-  int weight = 1;             ///< 1..1000, of this channel in the sum
-};
-
-/// What to minimise over the permutations that bn/retarget.h describes:
-///     E = sum over channels c of weight_c * sum over u of cost(D_c(u), D_c(u + R(u) + d)),
-/// or, with residual_sigma_px > 0, the energy of what is left of the difference after a blur,
-///     E = sum over c of weight_c * sum over w of (sum over v of g(w - v) * e_c(v))^2,
-/// e_c(w) the level that arrived at w less the level that belongs there, g a Gaussian with integer weights
-/// (cut at 3 sigma; each axis sums to about 2^b, b <= 8 the largest for which energies stay below 2^62). No
-/// assignment solver can handle that one: a seed's cost depends on where the others went.
-struct AnnealProblem {
-  std::vector<AnnealChannel> channels;  ///< 1..16
-  RetargetOptions retarget;             ///< metric must be l2 for a residual; gap is not used
-  double residual_sigma_px = 0.0;       ///< 0, or 0.3..8 pixels
-  /// Above 1: a volume. Levels are a stack of so many slices of equal height, each below the one before; u,
-  /// R, d and the torus have a third axis, z, counting slices; the radius holds on it too. 1..16384, divides
-  /// the levels' height. Not with a residual. The motion moves slices in x and y alone.
-  int depth = 1;
-  int step_z = 0;  ///< d.z, any integer
-};
-
-/// The energy of any permutation, recomputed from its definition. Of a volume move_z is R.z, stacked as the
-/// levels are; else it is empty. Errors: as anneal_retarget().
-std::int64_t anneal_energy(const AnnealProblem& problem, const Grid<Offset>& move,
-                           const Grid<std::int8_t>& move_z = {});
-
-/// check_permutation() (bn/retarget.h) for flat tiles and for volumes.
-void check_anneal_permutation(const AnnealProblem& problem, const Grid<Offset>& move,
-                              const Grid<std::int8_t>& move_z = {});
-
 // --- the run ---------------------------------------------------------------------------------------
 
 /// Where the temperature starts.
@@ -239,7 +201,7 @@ struct Checkpointing {
   /// Write it crash-safely (bn/texture.h, write_text_file).
   std::function<void(std::string_view checkpoint)> save = {};
   /// Seconds between two, 0..3600; stretched up to 28 s where saving takes longer than a fiftieth of it. 0
-  /// saves before every beat of the run, whatever it costs.
+  /// saves before every slice of the run, whatever it costs.
   double interval_s = 10.0;
   /// A checkpoint to go on from; empty to start afresh.
   std::string resume = {};
@@ -250,48 +212,23 @@ struct AnnealOptions {
   ScheduleParameters parameters = {};
   StartTemperature start = {};
   double end_temperature = 0.0;  ///< above 0, at most the start; 0: automatic
-  /// Where set, used as it is in place of schedule, parameters, start and end.
-  std::optional<CoolingSchedule> custom = {};
   /// Budget of each chain, 1..2^62. A proposal is one pair of seeds, within reach or not. The last 64th is
   /// spent at temperature 0, whatever the schedule.
   std::int64_t proposals = 1'000'000'000;
-  /// Above 0, at most proposals: the run ends after the round in which it has made so many, cooled as for the
-  /// whole budget: a run that was stopped, made again.
+  /// 0, or 1..proposals: the run ends after the round in which it has made so many, but cools as if for all of
+  /// `proposals`. So a run that was interrupted can be reproduced.
   std::int64_t stop_after = 0;
   std::uint64_t seed = 1;
-  /// Largest distance per axis of two seeds that are swapped, 1..2 radius; 0 for 5/3 radius.
+  /// Largest distance per axis of two seeds that are swapped. Of a retarget tile 1..2 radius; 0 for 5/3
+  /// radius.
   int swap_distance_px = 0;
   ChainOptions chains = {};
-  std::int64_t lower_bound = 0;  ///< known from the exact solver; goes into the result
   Checkpointing checkpoint = {};
 };
 
-struct AnnealResult {
-  RetargetTile tile;           ///< the best placement seen; tile.lower_bound from the options
-  Grid<std::int8_t> move_z;    ///< of a volume: R.z, the third axis of tile.move; else empty
-  std::int64_t proposals = 0;  ///< made, by all chains
-  std::int64_t accepted = 0;
-  double start_temperature = 0.0;
-  double end_temperature = 0.0;
-  bool frozen = false;  ///< the schedule ended the run before the budget did
-};
-
-/// Throws what anneal_retarget() would throw of these options for any problem; ErrorInfo::where is the name
-/// of the option in recipes.
+/// Throws invalid_input for options that no problem allows. ErrorInfo::where is the name of the option in
+/// recipes.
 void check_anneal_options(const AnnealOptions& options);
-
-/// Anneals from the identity R = m.
-///
-/// Energies that are sums over pixels run on vectors, a residual swap by swap. Same bytes for any number
-/// of threads and any instruction set, with or without a trace, resumed or not.
-///
-/// With radius 1 whole rows moved by one cannot be reached by swaps; such permutations are never good ones.
-/// Errors: invalid_input (an option outside its range, a checkpoint of another problem or damaged),
-/// over_limit (memory; energies that could pass 2^62), cancelled. Threads: over chains and, in tiles of 128
-/// rows and more, over bands of rows; execution.threads. Cost and quality: docs/annealing.md. Memory: about
-/// 20 bytes a pixel and chain for 8 bit levels, 40 for wider ones.
-AnnealResult anneal_retarget(const AnnealProblem& problem, const AnnealOptions& options,
-                             const Execution& execution = {}, AnnealTrace* trace = nullptr);
 
 /// Where an annealing stands. Counts, temperature and energy are of the traced chain, the first.
 struct AnnealState {
@@ -299,7 +236,7 @@ struct AnnealState {
   std::int64_t accepted = 0;
   double seconds = 0.0;      ///< of wall time spent annealing
   double temperature = 0.0;  ///< of the last sweep; before the first, of that one
-  std::int64_t energy = 0;   ///< of move()
+  std::int64_t energy = 0;   ///< of the placement now
   std::int64_t best_energy = 0;
   /// Worsening swaps within reach in the last watched sweep, as in TracePoint.
   std::array<std::int64_t, kWorseningClasses> worsening_tried{};
@@ -307,140 +244,14 @@ struct AnnealState {
   bool done = false;
 };
 
-/// anneal_retarget() in parts, for those who watch and steer. Beats and sweeps in any mixture until
-/// state().done make the bytes that anneal_retarget() makes in one go, at its speed where they are beats.
-///
-/// options.checkpoint.resume is honoured, `save` is not called. execution.progress is not called,
-/// execution.stop not looked at: who wants to stop makes no further call. Threads: one caller at a time; no
-/// locks inside. Errors: the constructor's are those of anneal_retarget(). `trace` must outlive the object.
-class Annealing {
- public:
-  Annealing(const AnnealProblem& problem, const AnnealOptions& options, const Execution& execution = {},
-            AnnealTrace* trace = nullptr);
-  ~Annealing();
-  Annealing(const Annealing&) = delete;
-  Annealing& operator=(const Annealing&) = delete;
-
-  /// Goes on by a 512th of the budget, at most 1e8 proposals: a tenth of a second at common speeds. Nothing
-  /// once done.
-  void beat();
-  /// Goes on by one sweep, about half as many proposals as pixels, of each chain (some may wait for others).
-  /// It is watched, so state() has its worsenings. Nothing once done.
-  void sweep();
-
-  AnnealState state() const;
-  /// As Checkpointing::save gets it; after a beat. Throws invalid_input between the sweeps of one.
-  std::string checkpoint() const;
-  Grid<Offset> move() const;         ///< the placement of the traced chain, now; a pass over the pixels
-  Grid<std::int8_t> move_z() const;  ///< its third axis, of a volume; else empty
-  /// With the best placement after a whole round, so far; likewise. A run of one chain whose stop_after is
-  /// result().proposals ends with the same bytes; none has been made before the first round ends.
-  AnnealResult result() const;
-  /// What the options came to: of the traced chain, over all proposals but the last 64th.
-  CoolingSchedule schedule() const;
-
- private:
-  struct Held;
-  std::unique_ptr<Held> held_;
-};
-
-/// The variants of one motion set: index (m.y + range) * (2 range + 1) + m.x + range, range 0..8; the motion
-/// of the argument is ignored. Every tile equals anneal_retarget() with that motion. A checkpoint is of the
-/// whole set: a resumed set keeps the variants that were finished and goes on with the others where they
-/// were. Threads: over variants.
-std::vector<AnnealResult> anneal_motion_set(const AnnealProblem& problem, const AnnealOptions& options,
-                                            int range, const Execution& execution = {});
-
-/// The budget (AnnealOptions::proposals) of the run or motion set that a checkpoint is of, so that a budget
-/// once found by a clock can be kept. Throws invalid_input for bytes that are no whole checkpoint.
-std::int64_t checkpoint_proposals(std::string_view checkpoint);
-
-/// The temperatures an automatic start and end stand for. For sums over pixels: start 6 c, end 0.9 c, with c
-/// the mean over pixels of the least cost within reach, but at least a tenth of the least cost above 0 that
-/// two levels of a channel have. They grow with the unit of the levels: an image of 8 bits has those of the
-/// same image in 16, in its own unit. Where levels are few and c meets its bound the run is nearly greedy,
-/// which is best there: plateaus are crossed for nothing. For a residual: a start that accepts a fifth of the
-/// worsening swaps, and a 4000th of it as end.
+/// The temperatures of a run: where it starts and where it ends.
 struct TemperatureRange {
   double start = 0.0;
   double end = 0.0;
 };
-TemperatureRange automatic_temperatures(const AnnealProblem& problem);
 
-/// The proposals that `seconds` of wall time allow, by a trial run of at most a twentieth of them. A clock
-/// decides, so record the number where bytes must come back.
-std::int64_t proposals_for(double seconds, const AnnealProblem& problem, const AnnealOptions& options,
-                           const Execution& execution = {});
-
-// --- studies ---------------------------------------------------------------------------------------
-
-struct AnnealStudyRun {
-  std::string schedule;
-  int radius = 0;
-  std::int64_t proposals = 0;
-  std::uint64_t seed = 0;
-  double cpu_seconds = 0.0;  ///< one thread
-  std::int64_t energy = 0;
-};
-/// A line a run under a line of names: schedule,radius,proposals,seed,seconds,energy.
-std::string runs_csv(const std::vector<AnnealStudyRun>& runs);
-/// The inverse. Errors: invalid_input, naming the line.
-std::vector<AnnealStudyRun> runs_from_csv(std::string_view csv);
-
-/// What study_anneal() crosses with each other.
-struct AnnealStudyOptions {
-  RetargetOptions retarget = {};  ///< its radius is not used
-  std::vector<std::string> schedules;
-  std::vector<std::int64_t> budgets;  ///< proposals
-  std::vector<int> radii;
-  int seeds = 1;  ///< 1..seeds
-  StartTemperature start = {};
-  double end_temperature = 0.0;
-  std::vector<AnnealStudyRun> known = {};  ///< made before, of this problem: these are not made again
-  /// Called with known and new runs after each group of seeds, and when a stop was requested.
-  std::function<void(const std::vector<AnnealStudyRun>&)> save = {};
-};
-
-struct AnnealStudyExact {
-  int radius = 0;
-  double cpu_seconds = 0.0;  ///< one thread, median of five
-  std::int64_t start_energy = 0;
-  std::int64_t energy = 0;  ///< proven optimal
-};
-struct AnnealStudy {
-  std::vector<AnnealStudyExact> exact;  ///< one a radius
-  std::vector<AnnealStudyRun> runs;     ///< known ones first
-};
-
-/// Anneals `levels` under every combination and solves each radius exactly. Energies are reproducible, times
-/// are those of this machine. Errors: as anneal_retarget() and solve_retarget().
-AnnealStudy study_anneal(const Grid<std::int32_t>& levels, const AnnealStudyOptions& options,
-                         const Execution& execution = {});
-
-struct AnnealThroughput {
-  std::string engine;  ///< an instruction set of the data-parallel sweep, or "swap by swap"
-  int side = 0;
-  int threads = 1;
-  double temperature = 0.0;
-  double proposals_per_second = 0.0;  ///< of wall time
-};
-/// At constant temperatures, in equilibrium, on square tiles of random 8 bit levels, radius 6; medians over
-/// eleven stretches. Every engine at 256x256 and T = 30, 3 and 0.5 on one thread; 512x512 at T = 3 and 0.5 on
-/// 1, 2, 4 .. execution.threads, taking turns, so that what else the machine does hits them alike.
-std::vector<AnnealThroughput> study_anneal_throughput(const Execution& execution = {});
-
-/// What watching and saving cost, as shares of a run's time.
-struct AnnealCosts {
-  /// Of a trace (readers take no lock): median over 101 ratios of processor times, each of two runs with
-  /// a trace and two without, of 1e8 proposals.
-  double trace = 0.0;
-  double trace_low = 0.0, trace_high = 0.0;  ///< 95 % confidence interval of that median
-  double save_seconds = 0.0;                 ///< one checkpoint, encoded and handed to `save`; median
-  double checkpoints = 0.0;                  ///< save_seconds over the default interval
-  std::size_t checkpoint_bytes = 0;
-};
-AnnealCosts study_anneal_costs(const AnnealProblem& problem,
-                               const std::function<void(std::string_view)>& save,
-                               const Execution& execution = {});
+/// The budget (AnnealOptions::proposals) of the run or motion set that a checkpoint is of, so that a budget
+/// once found by a clock can be kept. Throws invalid_input for bytes that are no whole checkpoint.
+std::int64_t checkpoint_proposals(std::string_view checkpoint);
 
 }  // namespace bn

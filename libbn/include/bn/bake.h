@@ -1,4 +1,4 @@
-// bn/bake.h - floor 2: from a recipe to files with proofs, and back from files to a verdict.
+// bn/bake.h - floor 3: from a recipe to files with proofs, and back from files to a verdict.
 //
 //   recipe (TOML) --parse_recipe--> Recipe --plan_bake--> BakePlan    what would be done, nothing written
 //                                   Recipe --bake-------> files, manifest.json, contact sheet

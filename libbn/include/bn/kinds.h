@@ -8,10 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "bn/anneal.h"
 #include "bn/kind.h"
 #include "bn/noise.h"
 #include "bn/retarget.h"
+#include "bn/retarget_anneal.h"
 
 namespace bn {
 

@@ -1,4 +1,4 @@
-// bn/noise.h - floor 1: blue-noise masks, and the patterns they are compared with.
+// bn/noise.h - floor 2: blue-noise masks, and the patterns they are compared with.
 
 #pragma once
 

@@ -1,4 +1,4 @@
-// bn/report.h - floor 2: one page that shows textures, and how good they are.
+// bn/report.h - floor 3: one page that shows textures, and how good they are.
 //
 // The page is one HTML file without network, script or clock: pictures are embedded PNG, plots are inline SVG
 // drawn by gnuplot. Equal files give equal bytes with one version of gnuplot and of the libraries.
@@ -51,7 +51,7 @@ inline constexpr int kMaxReportFiles = 20000;
 /// execution.threads; any number gives the same bytes.
 ReportSummary write_report(const ReportOptions& options, const Execution& execution = {});
 
-/// The page of a validation study (bn/runtime.h, run_study()), made of the files in its folder: tables,
+/// The page of a validation study (`bn validate`), made of the files in its folder: tables,
 /// curves and pictures of each scene. Without gnuplot it lacks the curves and says so. Errors: io,
 /// invalid_input (no study there), cancelled.
 void write_study_report(const std::filesystem::path& study, const std::filesystem::path& out,

@@ -1,4 +1,4 @@
-// bn/retarget.h - floor 1: the permutation that carries sorted seeds from one frame to the next.
+// bn/retarget.h - floor 2: the permutation that carries sorted seeds from one frame to the next.
 //
 // Source of the problem: E. Heitz and L. Belcour, "Distributing Monte Carlo errors as a blue noise
 // in screen space by permuting pixel seeds between frames", Computer Graphics Forum 38(4), 2019.

@@ -1,4 +1,4 @@
-// bn/spectrum.h - floor 1: what is in a texture, frequency by frequency, and whether it is what it claims.
+// bn/spectrum.h - floor 2: what is in a texture, frequency by frequency, and whether it is what it claims.
 //
 // Frequencies are in cycles/pixel along x and y and cycles/frame along z: fx = kx/W for the integer
 // index kx, taken in -1/2..1/2; W, H and D may differ. Power is |F|^2 / (N * variance), so that white
@@ -268,19 +268,5 @@ std::string describe(const CheckFailure& failure);
 
 /// Every figure that check() judges, in its order.
 std::vector<JudgedFigure> judge(const FiguresOfMerit& figures, Check kind);
-
-// --- studies -------------------------------------------------------------------------------------
-
-/// One way to transform a side x side picture of white noise, on one thread.
-struct FftStudyRow {
-  std::string method;  ///< "bn" or "OpenImageIO"
-  std::string type;    ///< "float" or "double"
-  int side;
-  double seconds;         ///< processor time, the median of repeated runs
-  double relative_error;  ///< root mean square against a long-double sum over four columns of the spectrum
-};
-
-/// Speed against error of our transforms and of OpenImageIO's (ImageBufAlgo::fft) for each side, 2..8192.
-std::vector<FftStudyRow> study_fft(const std::vector<int>& sides, const Execution& execution = {});
 
 }  // namespace bn

@@ -1,4 +1,4 @@
-// bn/texture.h - floor 1: images on disk, what their samples mean, and what is written into them.
+// bn/texture.h - floor 2: images on disk, what their samples mean, and what is written into them.
 
 #pragma once
 
