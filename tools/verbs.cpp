@@ -7,6 +7,7 @@ Verb bake_verb();
 Verb completion_verb();
 Verb help_verb();
 Verb info_verb();
+Verb pack_verb();
 Verb report_verb();
 Verb retarget_verb();
 Verb spectrum_verb();
@@ -19,13 +20,13 @@ Verb noise_void_and_cluster_verb();
 
 std::vector<Verb> all_verbs() {
   return {
-      bake_verb(),      noise_void_and_cluster_verb(),
-      retarget_verb(),  info_verb(),
-      verify_verb(),    spectrum_verb(),
-      report_verb(),    study_anneal_verb(),
-      study_fft_verb(), study_temporal_verb(),
-      validate_verb(),  completion_verb(),
-      help_verb(),
+      bake_verb(),           noise_void_and_cluster_verb(),
+      retarget_verb(),       pack_verb(),
+      info_verb(),           verify_verb(),
+      spectrum_verb(),       report_verb(),
+      study_anneal_verb(),   study_fft_verb(),
+      study_temporal_verb(), validate_verb(),
+      completion_verb(),     help_verb(),
   };
 }
 
