@@ -9,6 +9,7 @@ Verb bake_verb();
 Verb completion_verb();
 Verb help_verb();
 Verb info_verb();
+Verb pack_verb();
 Verb report_verb();
 Verb retarget_verb();
 Verb spectrum_verb();
@@ -28,7 +29,7 @@ std::vector<Verb> all_verbs() {
       verbs.push_back(kind_verb(*kind));
     }
   }
-  for (auto make : {info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb, study_fft_verb,
+  for (auto make : {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb, study_fft_verb,
                     study_temporal_verb, validate_verb, completion_verb, help_verb}) {
     verbs.push_back(make());
   }

@@ -10,6 +10,7 @@
 
 #include "bn/bake.h"
 #include "bn/error.h"
+#include "bn/volume.h"
 #include "ui/run_pictures.h"
 
 namespace bn::ui {
@@ -26,22 +27,6 @@ Error failure(ErrorCode code, const fs::path& where, std::string what, std::stri
                 .where = where.string(),
                 .limit = std::move(limit),
                 .remedy = std::move(remedy)});
-}
-
-std::vector<fs::path> images_in(const fs::path& folder) {
-  std::vector<fs::path> files;
-  std::error_code error;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-    if (has_image_name(entry->path()) && entry->is_regular_file()) files.push_back(entry->path());
-  }
-  if (error)
-    throw failure(ErrorCode::io, folder, error.message(), "", "check the folder and its permissions");
-  // Contact sheets stand beside what they show.
-  std::erase_if(files, [](const fs::path& path) { return path.stem() == "contact_sheet"; });
-  std::sort(files.begin(), files.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
-  return files;
 }
 
 std::string shape_text(const Image& image) {
@@ -82,8 +67,9 @@ bool same_shape(const Image& a, const Image& b) {
 }  // namespace
 
 bool has_image_name(const fs::path& path) {
-  static constexpr std::array<std::string_view, 13> kExtensions{
-      ".png", ".exr", ".tif", ".tiff", ".bin", ".h", ".hdr", ".pfm", ".pgm", ".ppm", ".tga", ".jpg", ".jpeg"};
+  static constexpr std::array<std::string_view, 15> kExtensions{".png", ".exr",  ".tif", ".tiff", ".bin",
+                                                                ".h",   ".ktx2", ".dds", ".hdr",  ".pfm",
+                                                                ".pgm", ".ppm",  ".tga", ".jpg",  ".jpeg"};
   std::string extension = path.extension().string();
   for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
@@ -94,7 +80,7 @@ TextureFile read_texture(const fs::path& path, const Execution& execution) {
       .path = path, .files = {path}, .images = {}, .metadata = {}, .metadata_fault = {}, .annealing = {}};
   std::error_code error;
   if (fs::is_directory(path, error)) {
-    texture.files = images_in(path);
+    texture.files = image_files(path);
     if (texture.files.empty()) {
       throw failure(ErrorCode::invalid_input, path, "there is no image in this folder", "",
                     "open a folder whose images are the slices of one texture");
@@ -105,15 +91,17 @@ TextureFile read_texture(const fs::path& path, const Execution& execution) {
     }
   }
   std::uint64_t bytes = 0;
+  Execution quiet = execution;  // a file's own progress would go back to 0 for each
+  quiet.progress = {};
   for (const auto& file : texture.files) {
     throw_if_stopped(execution);
-    FileContent content = read_image(file, execution);
+    Volume content = read_volume(file, {}, quiet);
     bytes += content.image.samples.size();
     if (bytes > kMaxTextureBytes) {
       throw failure(ErrorCode::over_limit, path, "too many samples for one view", "2 GiB", "");
     }
     if (texture.images.empty()) {
-      texture.hash_fits = !content.metadata || content.metadata->pixel_hash == pixel_hash(content.image);
+      texture.hash_fits = content.as_recorded;
       texture.metadata = std::move(content.metadata);
       texture.metadata_fault = std::move(content.metadata_fault);
       if (texture.metadata) texture.annealing = annealing_of(*texture.metadata);
@@ -121,10 +109,14 @@ TextureFile read_texture(const fs::path& path, const Execution& execution) {
       throw failure(ErrorCode::invalid_input, file, "a slice of " + shape_text(content.image),
                     shape_text(texture.images[0]) + ", as the first", "open the file by itself");
     }
-    texture.images.push_back(std::move(content.image));
+    if (content.image.depth > 1 && texture.files.size() > 1) {
+      throw failure(ErrorCode::invalid_input, file, fmt::format("{} slices", content.image.depth),
+                    "one slice a file", "open the file by itself");
+    }
+    for (int z = 0; z < content.image.depth; ++z) texture.images.push_back(slice_of(content.image, z));
     if (execution.progress) {
-      execution.progress(static_cast<double>(texture.images.size()) /
-                         static_cast<double>(texture.files.size()));
+      execution.progress(std::min(
+          1.0, static_cast<double>(texture.images.size()) / static_cast<double>(texture.files.size())));
     }
   }
   return texture;
@@ -192,8 +184,8 @@ Picture picture_of(const TextureFile& texture, const Section& section) {
     for (int c = 0; c < count; ++c) {
       const ChannelSamples samples = samples_of_channel(image, first + c);
       // The greatest sample of integers is one below the range's end.
-      const float high =
-          static_cast<float>(image.type == SampleType::f32 ? samples.high : samples.high - 1.0);
+      const bool integers = image.type == SampleType::u8 || image.type == SampleType::u16;
+      const float high = static_cast<float>(integers ? samples.high - 1.0 : samples.high);
       const bool begins = z == 0 && c == 0;
       picture.low =
           begins ? static_cast<float>(samples.low) : std::min(picture.low, static_cast<float>(samples.low));

@@ -1,10 +1,6 @@
 #include "bake/paths.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-
-#include "core/refuse.h"
 
 namespace bn::baking {
 
@@ -32,37 +28,6 @@ std::string path_problem(const std::string& text) {
   }
   if (!path.has_filename() || path.filename() == ".") return "names no file";
   return "";
-}
-
-std::string numbered_path(const std::string& pattern, int number) {
-  std::string result;
-  int places = 0;
-  for (std::size_t i = 0; i < pattern.size(); ++i) {
-    if (pattern[i] != '%') {
-      result += pattern[i];
-      continue;
-    }
-    ++i;
-    if (i < pattern.size() && pattern[i] == '%') {
-      result += '%';
-      continue;
-    }
-    const bool zeros = i < pattern.size() && pattern[i] == '0';
-    if (zeros) ++i;
-    int width = 0;
-    while (i < pattern.size() && pattern[i] >= '0' && pattern[i] <= '9' && width < 10) {
-      width = width * 10 + (pattern[i++] - '0');
-    }
-    if (i >= pattern.size() || pattern[i] != 'd')
-      refuse(pattern, "has a % without a number's place", "%d or %03d");
-    result += zeros ? fmt::format("{:0{}}", number, width) : fmt::format("{:{}}", number, width);
-    ++places;
-  }
-  if (places != 1) {
-    refuse(pattern, places == 0 ? "has no place for a number" : "has several places for a number",
-           "one %d, or %03d for three digits");
-  }
-  return result;
 }
 
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {

@@ -1,4 +1,4 @@
-// Paths as recipes name them: what a path may not be, what its extension says, and numbers in it.
+// Paths as recipes name them: what a path may not be, and what its extension says.
 
 #pragma once
 
@@ -18,10 +18,6 @@ SampleType natural_type(const std::string& path);
 /// What is wrong with an output path, as in "is absolute"; empty if nothing is. Files stay inside the output
 /// folder.
 std::string path_problem(const std::string& path);
-
-/// `pattern` with its one place for a number, %d, %3d or %03d, filled in; %% is a percent sign.
-/// Errors: invalid_input (no such place, or more than one; another letter after %).
-std::string numbered_path(const std::string& pattern, int number);
 
 /// Whether both name one existing file, by whatever path or link.
 bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);

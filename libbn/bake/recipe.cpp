@@ -14,6 +14,7 @@
 #include "bake/paths.h"
 #include "bn/bake.h"
 #include "bn/error.h"
+#include "bn/volume.h"
 #include "core/table_reader.h"
 
 namespace bn {
@@ -204,7 +205,7 @@ class RecipeParser {
     if (count == 1 && (!path.empty() || reader.has("path"))) claim_path(reader, "path", path, line);
     for (int i = 0; count > 1 && i < count; ++i) {
       try {
-        claim_path(reader, "path", numbered_path(path, i), line);
+        claim_path(reader, "path", numbered_path(path, i).string(), line);
       } catch (const Error& error) {
         reader.mistake("path", error.info().what, error.info().limit,
                        "with count, the path has a place for the number");
@@ -293,7 +294,7 @@ std::shared_ptr<Entry> numbered_entry(const Entry& entry, int number) {
   std::shared_ptr<Entry> single = entry.clone();
   single->name = fmt::format("{}_{}", entry.name, number);
   for (std::size_t i = 0; i < single->output_count(); ++i)
-    single->output_path(i) = numbered_path(single->output_path(i), number);
+    single->output_path(i) = numbered_path(single->output_path(i), number).string();
   single->take_later_seeds(number);
   return single;
 }

@@ -48,6 +48,10 @@ class FileVerifier : public Checks {
         hash == metadata.pixel_hash
             ? hash
             : fmt::format("pixels have {}, recorded is {}", hash, metadata.pixel_hash));
+    if (metadata.kind == "packed") {
+      add("recipe", true, "the command that packed it; its sources are not read");
+      return;
+    }
     std::shared_ptr<const Entry> entry;
     const bool parses = attempt("recipe", [&] {
       const Recipe recipe = parse_recipe(metadata.recipe, "recipe", file_.parent_path());
@@ -93,7 +97,8 @@ class FileVerifier : public Checks {
 };
 
 bool is_ours_by_name(const fs::path& path) {
-  static const std::vector<std::string> kExtensions = {".png", ".exr", ".tif", ".tiff", ".h", ".bin"};
+  static const std::vector<std::string> kExtensions = {".png",  ".exr", ".tif", ".tiff",
+                                                       ".ktx2", ".dds", ".h",   ".bin"};
   return std::find(kExtensions.begin(), kExtensions.end(), path.extension().string()) != kExtensions.end();
 }
 

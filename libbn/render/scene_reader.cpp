@@ -206,6 +206,7 @@ class Reader {
     }
     if (image.size.area() > kMaxTexels)
       fail(node, fmt::format("{} texels", image.size.area()), fmt::format("1..{}", kMaxTexels));
+    if (image.type == SampleType::f16) image = to_float(image);
     const auto value = [&](std::size_t index) {
       const std::byte* sample = image.samples.data() + index * bytes_per_sample(image.type);
       if (image.type == SampleType::f32) {

@@ -3,13 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "bn/error.h"
 #include "bn/noise.h"
 #include "bn/render.h"
 #include "bn/retarget.h"
 #include "bn/texture.h"
+#include "bn/volume.h"
 
 namespace bn {
 namespace {
@@ -31,28 +30,6 @@ FileContent read_hashed(const std::filesystem::path& path, const Execution& exec
                  .remedy = "bake it again"});
   }
   return file;
-}
-
-/// Names as people order them: runs of digits by their value.
-bool in_order(const std::string& a, const std::string& b) {
-  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
-  std::size_t i = 0, j = 0;
-  while (i < a.size() && j < b.size()) {
-    if (!digit(a[i]) || !digit(b[j])) {
-      if (a[i] != b[j]) return a[i] < b[j];
-      ++i, ++j;
-      continue;
-    }
-    while (i < a.size() && a[i] == '0') ++i;
-    while (j < b.size() && b[j] == '0') ++j;
-    std::size_t i_end = i, j_end = j;
-    while (i_end < a.size() && digit(a[i_end])) ++i_end;
-    while (j_end < b.size() && digit(b[j_end])) ++j_end;
-    const auto left = a.substr(i, i_end - i), right = b.substr(j, j_end - j);
-    if (left != right) return left.size() != right.size() ? left.size() < right.size() : left < right;
-    i = i_end, j = j_end;
-  }
-  return a.size() - i < b.size() - j || (a.size() - i == b.size() - j && a < b);
 }
 
 }  // namespace
@@ -109,32 +86,10 @@ TemporalTextures read_temporal_textures(const std::filesystem::path& folder, std
 }
 
 std::vector<Grid<std::int32_t>> read_slices(const std::filesystem::path& folder, const Execution& execution) {
-  std::vector<std::filesystem::path> paths;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string extension = entry.path().extension().string();
-    if (extension == ".png" || extension == ".exr" || extension == ".tif") paths.push_back(entry.path());
-  }
-  if (error || paths.empty()) {
-    throw Error({.code = ErrorCode::io,
-                 .what = error ? error.message() : "no .png, .exr or .tif in it",
-                 .where = folder.string(),
-                 .limit = "",
-                 .remedy = "name a folder of slices"});
-  }
-  std::sort(paths.begin(), paths.end(), [](const auto& a, const auto& b) {
-    return in_order(a.filename().string(), b.filename().string());
-  });
+  const Volume volume = read_volume(folder, {}, execution);
   std::vector<Grid<std::int32_t>> slices;
-  for (const auto& path : paths) {
-    slices.push_back(levels_of_channel(read_image(path, execution).image, 0).value);
-    if (slices.back().size() == slices.front().size()) continue;
-    throw Error({.code = ErrorCode::invalid_input,
-                 .what = fmt::format("{}x{} pixels", slices.back().width(), slices.back().height()),
-                 .where = path.string(),
-                 .limit = fmt::format("the {}x{} of the other slices", slices.front().width(),
-                                      slices.front().height()),
-                 .remedy = "take all slices from one bake"});
+  for (int z = 0; z < volume.image.depth; ++z) {
+    slices.push_back(levels_of_channel(slice_of(volume.image, z), 0).value);
   }
   return slices;
 }

@@ -1,6 +1,6 @@
 // A texture as a C header: a constant array for programs that have no image reader, valid as C99 and
-// C++. The metadata stand in a comment. What is written here is also read here, so that `bn verify`
-// reaches every file; other C is not understood.
+// C++. A comment says what the channels mean and holds the metadata. What is written here is also read here,
+// so that `bn verify` reaches every file; other C is not understood.
 
 #include <fmt/format.h>
 
@@ -22,6 +22,7 @@ constexpr std::string_view kOpening = "/* Texture written by libbn ";
 constexpr std::string_view kMetadataMark = "\nbn-metadata: ";
 constexpr std::string_view kCommentEnd = "\n*/\n";
 constexpr std::string_view kArrayMark = "\nstatic const ";
+constexpr std::string_view kDepthMacro = "_DEPTH ";  // no name of ours ends so but that macro
 constexpr std::size_t kLineWidth = 100;
 
 std::string_view c_type(SampleType type) {
@@ -86,12 +87,14 @@ std::string_view literal(const Image& image, std::size_t index, std::array<char,
   return {buffer.data(), end};
 }
 
-void append_rows(std::string& text, const Image& image) {
+void append_slice(std::string& text, const Image& image, int z) {
   const auto channels = static_cast<std::size_t>(image.channels);
   const auto width = static_cast<std::size_t>(image.size.width);
+  const auto height = static_cast<std::size_t>(image.size.height);
   std::array<char, 32> buffer;
   std::string pixel;
-  for (std::size_t y = 0; y < static_cast<std::size_t>(image.size.height); ++y) {
+  const std::size_t first = static_cast<std::size_t>(z) * height;
+  for (std::size_t y = first; y < first + height; ++y) {
     text += "  {";
     std::size_t line_start = text.size() - 3;
     for (std::size_t x = 0; x < width; ++x) {
@@ -186,20 +189,31 @@ Bytes encode_c_header(const std::string& stem, const Image& image, const Metadat
   }
   const std::string name = identifier(stem);
   const std::string macro = upper(name);
-  std::string text = fmt::format("{}{}: {}x{} pixels, channels: {}, {}.\n", kOpening, metadata.tool_version,
-                                 image.size.width, image.size.height, image.channels, name_of(image.type));
-  text += fmt::format("Origin top-left; {}[y][x]{}.\n", name, image.channels > 1 ? "[channel]" : "");
+  std::string text =
+      fmt::format("{}{}: {}x{}{} pixels, channels: {}, {}.\n", kOpening, metadata.tool_version,
+                  image.size.width, image.size.height, image.depth > 1 ? fmt::format("x{}", image.depth) : "",
+                  image.channels, name_of(image.type));
+  text += fmt::format("Origin top-left; {}{}[y][x]{}.\n", name, image.depth > 1 ? "[z]" : "",
+                      image.channels > 1 ? "[channel]" : "");
+  for (const std::string& sentence : content_description(image, metadata)) text += sentence + "\n";
   text += kMetadataMark;
   text += comment_safe(to_json(metadata, 2));
   text += kCommentEnd;
   text += fmt::format("#ifndef {0}_H\n#define {0}_H\n\n#include <stdint.h>\n\n", macro);
   text += fmt::format("#define {0}_WIDTH {1}\n#define {0}_HEIGHT {2}\n#define {0}_CHANNELS {3}\n", macro,
                       image.size.width, image.size.height, image.channels);
+  if (image.depth > 1) text += fmt::format("#define {}{}{}\n", macro, kDepthMacro, image.depth);
   text += kArrayMark;
-  text += fmt::format("{} {}[{}][{}]", c_type(image.type), name, image.size.height, image.size.width);
+  text += fmt::format("{} {}", c_type(image.type), name);
+  if (image.depth > 1) text += fmt::format("[{}]", image.depth);
+  text += fmt::format("[{}][{}]", image.size.height, image.size.width);
   if (image.channels > 1) text += fmt::format("[{}]", image.channels);
   text += " = {\n";
-  append_rows(text, image);
+  for (int z = 0; z < image.depth; ++z) {
+    if (image.depth > 1) text += " {\n";
+    append_slice(text, image, z);
+    if (image.depth > 1) text += " },\n";
+  }
   text += fmt::format("}};\n\n#endif /* {}_H */\n", macro);
   return {text.begin(), text.end()};
 }
@@ -211,13 +225,15 @@ Decoded decode_c_header(ByteView bytes, const std::string& name, const Execution
   decoded.description = scanner.through(kCommentEnd);
 
   Image& image = decoded.image;
-  scanner.through(kArrayMark);
+  const bool volume = scanner.through(kArrayMark).find(kDepthMacro) != std::string_view::npos;
   const std::string_view type = scanner.through(" ");
   for (const SampleType candidate : {SampleType::u8, SampleType::u16, SampleType::f32}) {
     if (type == c_type(candidate)) image.type = candidate;
   }
   if (type != c_type(image.type)) scanner.fail();
   scanner.through("[");
+  const auto depth = volume ? scanner.number<std::uint32_t>() : 1u;
+  if (volume) scanner.expect("][");
   const auto height = scanner.number<std::uint32_t>();
   scanner.expect("][");
   const auto width = scanner.number<std::uint32_t>();
@@ -226,10 +242,13 @@ Decoded decode_c_header(ByteView bytes, const std::string& name, const Execution
   if (channels > 1) scanner.expect("]");
   scanner.expect(" = {\n");
   check_shape(width, height, channels, name);
+  check_depth(depth, name);
+  if (volume && depth == 1) scanner.fail();
   image.size = {static_cast<int>(width), static_cast<int>(height)};
+  image.depth = static_cast<int>(depth);
   image.channels = static_cast<int>(channels);
 
-  const std::uint64_t samples_bytes = sample_bytes(image.size, image.channels, image.type);
+  const std::uint64_t samples_bytes = sample_bytes(image.shape(), image.channels, image.type);
   // A sample takes a digit and a comma at least.
   if (samples_bytes / bytes_per_sample(image.type) > scanner.left() / 2) scanner.fail();
   check_memory(execution, bytes.size() + samples_bytes, name);
@@ -244,9 +263,13 @@ Decoded decode_c_header(ByteView bytes, const std::string& name, const Execution
     case SampleType::f32:
       read_samples<float>(scanner, image);
       break;
+    case SampleType::f16:
+      scanner.fail();  // C has no such type
   }
   if (image.channels > 1) scanner.expect("}");
-  scanner.expect("},\n};\n");
+  scanner.expect("},\n");
+  if (volume) scanner.expect(" },\n");
+  scanner.expect("};\n");
   return decoded;
 }
 

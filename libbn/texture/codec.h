@@ -19,6 +19,8 @@ using ByteView = std::span<const std::byte>;
 struct Decoded {
   Image image;
   std::string description;
+  SliceKind slices = SliceKind::layers;
+  std::vector<std::string> notes;  ///< as in FileContent
 };
 
 /// Lower case, without the dot.
@@ -36,7 +38,16 @@ inline std::string extension_of(const std::filesystem::path& path) {
 Decoded decode(ByteView bytes, const std::string& name, const Execution& execution);
 
 /// The bytes of the file that write_image() puts at `path`; nothing is written. Throws like it.
-Bytes encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata);
+Bytes encode(const std::filesystem::path& path, const Image& image, const Metadata& metadata,
+             SliceKind slices = SliceKind::layers);
+
+/// read_image(), but for the refusal of several slices.
+FileContent read_any(const std::filesystem::path& path, const Execution& execution);
+
+/// Whether the format that the extension names keeps several slices in one file.
+bool holds_volumes(const std::filesystem::path& path);
+/// The file of the metadata of a DDS.
+std::filesystem::path metadata_beside(const std::filesystem::path& dds);
 
 // Through OpenImageIO. `format` is its name of a format: "openexr", "tiff", or an extension.
 Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
@@ -53,6 +64,16 @@ Decoded decode_png(ByteView bytes, const std::string& name, const Execution& exe
 bool is_bin(ByteView bytes);
 Decoded decode_bin(ByteView bytes, const std::string& name, const Execution& execution);
 Bytes encode_bin(const Image& image, const Metadata& metadata);
+
+// KTX 2.0.
+bool is_ktx2(ByteView bytes);
+Decoded decode_ktx2(ByteView bytes, const std::string& name, const Execution& execution);
+Bytes encode_ktx2(const Image& image, const Metadata& metadata, SliceKind slices);
+
+// DDS, which has no room for metadata.
+bool is_dds(ByteView bytes);
+Decoded decode_dds(ByteView bytes, const std::string& name, const Execution& execution);
+Bytes encode_dds(const Image& image, SliceKind slices);
 
 // A C array. Reading understands what writing writes and no other C.
 bool is_c_header(ByteView bytes);

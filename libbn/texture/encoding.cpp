@@ -7,6 +7,7 @@
 
 #include "bn/texture.h"
 #include "texture/error.h"
+#include "texture/half.h"
 #include "texture/image.h"
 
 namespace bn {
@@ -16,21 +17,60 @@ using texture::fail_input;
 
 constexpr int kMoveZero = 128;
 
-Image blank(Extent size, int channels, SampleType type, std::string_view where) {
-  texture::check_shape(size.width, size.height, channels, where);
-  return {.size = size,
+Image blank(Shape shape, int channels, SampleType type, std::string_view where) {
+  texture::check_shape(shape.width, shape.height, channels, where);
+  texture::check_depth(shape.depth, where);
+  return {.size = shape.slice(),
+          .depth = shape.depth,
           .channels = channels,
           .type = type,
-          .samples = std::vector<std::byte>(texture::sample_bytes(size, channels, type))};
+          .samples = std::vector<std::byte>(texture::sample_bytes(shape, channels, type))};
 }
 
-template <class Sample, class Encode>
-void fill(Image& image, const Grid<std::uint32_t>& rank, Encode encode) {
+/// Puts the samples of `rank` into one channel of `image`.
+template <class Encode>
+void fill(Image& image, int channel, const Grid<std::uint32_t>& rank, Encode encode) {
+  const auto channels = static_cast<std::size_t>(image.channels);
   for (std::size_t i = 0; i < rank.count(); ++i) {
-    const Sample sample = encode(rank[i]);
-    std::memcpy(image.samples.data() + i * sizeof sample, &sample, sizeof sample);
+    const auto sample = encode(std::uint64_t{rank[i]});
+    const std::size_t at = (i * channels + static_cast<std::size_t>(channel)) * sizeof sample;
+    std::memcpy(image.samples.data() + at, &sample, sizeof sample);
   }
 }
+
+void fill_mask(Image& image, int channel, const Grid<std::uint32_t>& rank, std::string_view where) {
+  const std::uint64_t n = rank.count();
+  const auto bad = std::find_if(rank.begin(), rank.end(), [&](std::uint32_t r) { return r >= n; });
+  if (bad != rank.end()) {
+    fail_input(std::string(where), fmt::format("rank {}", *bad), fmt::format("0..{}", n - 1));
+  }
+  const auto centred = [n](std::uint64_t r) {
+    return (static_cast<double>(r) + 0.5) / static_cast<double>(n);
+  };
+  switch (image.type) {
+    case SampleType::u8:
+      return fill(image, channel, rank,
+                  [n](std::uint64_t r) { return static_cast<std::uint8_t>(r * 256 / n); });
+    case SampleType::u16:
+      return fill(image, channel, rank,
+                  [n](std::uint64_t r) { return static_cast<std::uint16_t>(r * 65536 / n); });
+    case SampleType::f32:
+      return fill(image, channel, rank, [&](std::uint64_t r) { return static_cast<float>(centred(r)); });
+    case SampleType::f16:
+      return fill(image, channel, rank, [&](std::uint64_t r) { return texture::half_bits(centred(r)); });
+  }
+}
+
+/// One component of a move as a sample.
+std::byte encode_component(int component) {
+  if (component < -kMoveZero || component > 255 - kMoveZero) {
+    fail_input("encode_moves", fmt::format("a move of {} pixels", component), "-128..127",
+               "use a smaller radius or motion");
+  }
+  return static_cast<std::byte>(component + kMoveZero);
+}
+
+int decode_component(std::byte sample) { return std::to_integer<int>(sample) - kMoveZero; }
 
 /// Copies a tile between its own image and its place in an atlas.
 template <class Copy>
@@ -48,61 +88,83 @@ void for_each_row(const Image& atlas, Extent tile, int index, Copy copy) {
 }  // namespace
 
 Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type) {
-  Image image = blank(rank.size(), 1, type, "encode_mask");
-  const std::uint64_t n = rank.count();
-  const auto bad = std::find_if(rank.begin(), rank.end(), [&](std::uint32_t r) { return r >= n; });
-  if (bad != rank.end()) fail_input("encode_mask", fmt::format("rank {}", *bad), fmt::format("0..{}", n - 1));
-  switch (type) {
-    case SampleType::u8:
-      fill<std::uint8_t>(image, rank,
-                         [n](std::uint64_t r) { return static_cast<std::uint8_t>(r * 256 / n); });
-      break;
-    case SampleType::u16:
-      fill<std::uint16_t>(image, rank,
-                          [n](std::uint64_t r) { return static_cast<std::uint16_t>(r * 65536 / n); });
-      break;
-    case SampleType::f32:
-      fill<float>(image, rank, [n](std::uint64_t r) {
-        return static_cast<float>((static_cast<double>(r) + 0.5) / static_cast<double>(n));
-      });
-      break;
-  }
+  Image image = blank(rank.shape(), 1, type, "encode_mask");
+  fill_mask(image, 0, rank, "encode_mask");
   return image;
 }
 
 Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type) {
-  return encode_mask(ranks[0], type);
+  if (ranks.empty()) fail_input("encode_masks", "no mask", fmt::format("1..{}", texture::kMaxChannels));
+  const Shape shape = ranks[0].shape();
+  Image image =
+      blank(shape, static_cast<int>(std::min<std::size_t>(ranks.size(), 1 << 20)), type, "encode_masks");
+  for (std::size_t c = 0; c < ranks.size(); ++c) {
+    const std::string where = fmt::format("encode_masks, channel {}", c);
+    if (ranks[c].shape() != shape) {
+      const auto [width, height, depth] = ranks[c].shape();
+      fail_input(where, fmt::format("a mask of {}x{}x{}", width, height, depth),
+                 fmt::format("{}x{}x{}, as the first", shape.width, shape.height, shape.depth));
+    }
+    fill_mask(image, static_cast<int>(c), ranks[c], where);
+  }
+  return image;
 }
 
 Image encode_moves(const Grid<Offset>& move) {
+  if (move.depth() > 1) {
+    fail_input("encode_moves", fmt::format("moves of {} slices without their third axis", move.depth()),
+               "1 slice", "give the third axis too");
+  }
   Image image = blank(move.size(), 3, SampleType::u8, "encode_moves");
-  const auto encode = [](int component) {
-    if (component < -kMoveZero || component > 255 - kMoveZero) {
-      fail_input("encode_moves", fmt::format("a move of {} pixels", component), "-128..127",
-                 "use a smaller radius or motion");
-    }
-    return static_cast<std::byte>(component + kMoveZero);
-  };
   for (std::size_t i = 0; i < move.count(); ++i) {
-    image.samples[3 * i] = encode(move[i].x);
-    image.samples[3 * i + 1] = encode(move[i].y);
+    image.samples[3 * i] = encode_component(move[i].x);
+    image.samples[3 * i + 1] = encode_component(move[i].y);
   }
   return image;
 }
 
 Grid<Offset> decode_moves(const Image& image) {
   texture::check_image(image, "decode_moves");
-  if (image.type != SampleType::u8 || image.channels < 2) {
-    fail_input("decode_moves", fmt::format("{} samples, {} channels", name_of(image.type), image.channels),
-               "8bit, red = x + 128, green = y + 128");
+  if (image.type != SampleType::u8 || image.channels < 2 || image.depth > 1) {
+    fail_input("decode_moves", texture::describe(image), "8bit, one slice, red = x + 128, green = y + 128");
   }
   Grid<Offset> move(image.size);
-  const auto decode = [](std::byte sample) { return std::to_integer<int>(sample) - kMoveZero; };
   for (std::size_t i = 0; i < move.count(); ++i) {
     const std::byte* const pixel = image.samples.data() + i * static_cast<std::size_t>(image.channels);
-    move[i] = {decode(pixel[0]), decode(pixel[1])};
+    move[i] = {decode_component(pixel[0]), decode_component(pixel[1])};
   }
   return move;
+}
+
+Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z) {
+  if (move.shape() != z.shape()) {
+    fail_input("encode_moves",
+               fmt::format("a third axis of {}x{}x{} for moves of {}x{}x{}", z.width(), z.height(), z.depth(),
+                           move.width(), move.height(), move.depth()),
+               "the same shape");
+  }
+  Image image = blank(move.shape(), 3, SampleType::u8, "encode_moves");
+  for (std::size_t i = 0; i < move.count(); ++i) {
+    image.samples[3 * i] = encode_component(move[i].x);
+    image.samples[3 * i + 1] = encode_component(move[i].y);
+    image.samples[3 * i + 2] = encode_component(z[i]);
+  }
+  return image;
+}
+
+VolumeMoves decode_volume_moves(const Image& image) {
+  texture::check_image(image, "decode_volume_moves");
+  if (image.type != SampleType::u8 || image.channels < 3) {
+    fail_input("decode_volume_moves", texture::describe(image),
+               "8bit, red = x + 128, green = y + 128, blue = z + 128");
+  }
+  VolumeMoves moves{.move = Grid<Offset>(image.shape()), .z = Grid<std::int8_t>(image.shape())};
+  for (std::size_t i = 0; i < moves.move.count(); ++i) {
+    const std::byte* const pixel = image.samples.data() + i * static_cast<std::size_t>(image.channels);
+    moves.move[i] = {decode_component(pixel[0]), decode_component(pixel[1])};
+    moves.z[i] = static_cast<std::int8_t>(decode_component(pixel[2]));
+  }
+  return moves;
 }
 
 Image make_atlas(const std::vector<Image>& tiles, int columns) {
@@ -113,9 +175,10 @@ Image make_atlas(const std::vector<Image>& tiles, int columns) {
   const Image& first = tiles.front();
   for (const Image& tile : tiles) {
     texture::check_image(tile, "make_atlas");
-    if (tile.size != first.size || tile.channels != first.channels || tile.type != first.type) {
+    if (!texture::same_layout(tile, first)) {
       fail_input("make_atlas", "tiles of different size, channels or type", "equal ones");
     }
+    if (tile.depth > 1) fail_input("make_atlas", fmt::format("a tile of {} slices", tile.depth), "1 slice");
   }
   const auto width = std::int64_t{first.size.width} * columns;
   const auto height = static_cast<std::int64_t>(tiles.size()) / columns * first.size.height;
@@ -133,6 +196,7 @@ Image make_atlas(const std::vector<Image>& tiles, int columns) {
 
 Image atlas_tile(const Image& atlas, Extent tile_size, int index) {
   texture::check_image(atlas, "atlas_tile");
+  if (atlas.depth > 1) fail_input("atlas_tile", fmt::format("an atlas of {} slices", atlas.depth), "1 slice");
   if (tile_size.width < 1 || tile_size.height < 1 || atlas.size.width % tile_size.width != 0 ||
       atlas.size.height % tile_size.height != 0) {
     fail_input("atlas_tile",

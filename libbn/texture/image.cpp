@@ -22,12 +22,14 @@ std::string_view name_of(SampleType type) {
       return "16bit";
     case SampleType::f32:
       return "float";
+    case SampleType::f16:
+      return "half";
   }
   return "unknown";
 }
 
 std::size_t bytes_per_sample(SampleType type) {
-  return type == SampleType::u8 ? 1 : type == SampleType::u16 ? 2 : 4;
+  return type == SampleType::u8 ? 1 : type == SampleType::f32 ? 4 : 2;
 }
 
 std::string pixel_hash(const Image& image) {
@@ -39,6 +41,9 @@ std::string pixel_hash(const Image& image) {
       static_cast<std::uint32_t>(image.channels), static_cast<std::uint32_t>(image.type)};
   XXH3_128bits_reset(state.get());
   XXH3_128bits_update(state.get(), head, sizeof head);
+  // Pictures were hashed before there were volumes, and their hashes are in files.
+  const auto depth = static_cast<std::uint32_t>(image.depth);
+  if (depth > 1) XXH3_128bits_update(state.get(), &depth, sizeof depth);
   XXH3_128bits_update(state.get(), image.samples.data(), image.samples.size());
   const XXH128_hash_t hash = XXH3_128bits_digest(state.get());
   return fmt::format("xxh3-128:{:016x}{:016x}", hash.high64, hash.low64);
@@ -57,9 +62,25 @@ void check_shape(std::int64_t width, std::int64_t height, std::int64_t channels,
   }
 }
 
-std::uint64_t sample_bytes(Extent size, int channels, SampleType type) {
-  return static_cast<std::uint64_t>(size.area()) * static_cast<std::uint64_t>(channels) *
+void check_depth(std::int64_t depth, std::string_view where) {
+  if (depth >= 1 && depth <= kMaxDepth) return;
+  fail_input(std::string(where), fmt::format("a volume of {} slices", depth),
+             fmt::format("1..{} slices", kMaxDepth));
+}
+
+std::uint64_t sample_bytes(Shape shape, int channels, SampleType type) {
+  return static_cast<std::uint64_t>(shape.count()) * static_cast<std::uint64_t>(channels) *
          bytes_per_sample(type);
+}
+
+std::string describe(const Image& image) {
+  return fmt::format("{}x{}{} pixels, {} channel{}, {}", image.size.width, image.size.height,
+                     image.depth > 1 ? fmt::format("x{}", image.depth) : "", image.channels,
+                     image.channels == 1 ? "" : "s", name_of(image.type));
+}
+
+bool same_layout(const Image& a, const Image& b) {
+  return a.shape() == b.shape() && a.channels == b.channels && a.type == b.type;
 }
 
 void check_decoded_size(std::uint64_t decoded_bytes, std::uint64_t file_bytes, std::string_view where) {
@@ -75,11 +96,11 @@ void check_decoded_size(std::uint64_t decoded_bytes, std::uint64_t file_bytes, s
 
 void check_image(const Image& image, std::string_view where) {
   check_shape(image.size.width, image.size.height, image.channels, where);
-  const std::uint64_t expected = sample_bytes(image.size, image.channels, image.type);
+  check_depth(image.depth, where);
+  const std::uint64_t expected = sample_bytes(image.shape(), image.channels, image.type);
   if (image.samples.size() != expected) {
     fail_input(std::string(where),
-               fmt::format("{} bytes of samples for {}x{} pixels of {} channels, {}", image.samples.size(),
-                           image.size.width, image.size.height, image.channels, name_of(image.type)),
+               fmt::format("{} bytes of samples for {}", image.samples.size(), describe(image)),
                fmt::format("{} bytes", expected));
   }
 }

@@ -10,6 +10,7 @@
 
 #include "bn/texture.h"
 #include "texture/error.h"
+#include "texture/half.h"
 #include "texture/image.h"
 
 namespace bn {
@@ -21,10 +22,19 @@ constexpr int kFloatLevels = 65536;
 
 template <class Sample>
 std::vector<Sample> samples_of(const Image& image, int channel) {
-  std::vector<Sample> samples(static_cast<std::size_t>(image.size.area()));
+  std::vector<Sample> samples(static_cast<std::size_t>(image.shape().count()));
   const std::size_t pixel = static_cast<std::size_t>(image.channels) * sizeof(Sample);
   const std::byte* from = image.samples.data() + static_cast<std::size_t>(channel) * sizeof(Sample);
   for (std::size_t i = 0; i < samples.size(); ++i) std::memcpy(&samples[i], from + i * pixel, sizeof(Sample));
+  return samples;
+}
+
+/// The samples of a float or half channel.
+std::vector<float> floats_of(const Image& image, int channel) {
+  if (image.type == SampleType::f32) return samples_of<float>(image, channel);
+  const std::vector<std::uint16_t> bits = samples_of<std::uint16_t>(image, channel);
+  std::vector<float> samples(bits.size());
+  std::transform(bits.begin(), bits.end(), samples.begin(), texture::half_value);
   return samples;
 }
 
@@ -43,7 +53,7 @@ template <class Sample>
 Levels integer_levels(const Image& image, int channel) {
   constexpr int kLevels = 1 << (8 * sizeof(Sample));
   const std::vector<Sample> samples = samples_of<Sample>(image, channel);
-  Levels levels{.value = Grid<std::int32_t>(image.size)};
+  Levels levels{.value = Grid<std::int32_t>(image.shape())};
   std::copy(samples.begin(), samples.end(), levels.value.begin());
 
   const std::vector<std::int64_t> count = histogram(levels.value, kLevels);
@@ -57,34 +67,43 @@ Levels integer_levels(const Image& image, int channel) {
   return levels;
 }
 
-void check_finite(const std::vector<float>& samples, Extent size, int channel) {
+void check_finite(const std::vector<float>& samples, const Image& image, int channel) {
   const auto is_bad = [](float s) { return !std::isfinite(s); };
   const auto first = std::find_if(samples.begin(), samples.end(), is_bad);
   if (first == samples.end()) return;
   const auto index = first - samples.begin();
+  const auto [width, height] = image.size;
   fail_input(fmt::format("channel {}", channel),
-             fmt::format("{} of {} pixels are NaN or infinite, the first at x {}, y {}",
-                         std::count_if(first, samples.end(), is_bad), samples.size(), index % size.width,
-                         index / size.width),
+             fmt::format("{} of {} pixels are NaN or infinite, the first at x {}, y {}{}",
+                         std::count_if(first, samples.end(), is_bad), samples.size(), index % width,
+                         index / width % height,
+                         image.depth > 1 ? fmt::format(", slice {}", index / image.size.area()) : ""),
              "finite samples");
 }
 
-bool spread_like_a_mask(std::vector<float> samples) {
+/// Sample number i in increasing order of a baked mask of n samples.
+float mask_sample(std::size_t i, double n, SampleType type) {
+  const double value = (static_cast<double>(i) + 0.5) / n;
+  return type == SampleType::f16 ? texture::half_value(texture::half_bits(value)) : static_cast<float>(value);
+}
+
+bool spread_like_a_mask(std::vector<float> samples, SampleType type) {
   std::sort(samples.begin(), samples.end());
   if (std::adjacent_find(samples.begin(), samples.end()) == samples.end()) return true;
-  // Beyond 2^24 pixels neighbouring ranks share a float; a baked mask is known by its exact samples.
+  // Beyond 2^24 pixels neighbouring ranks share a float, beyond 2^11 a half float; a baked mask is known by
+  // its exact samples.
   const auto n = static_cast<double>(samples.size());
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (samples[i] != static_cast<float>((static_cast<double>(i) + 0.5) / n)) return false;
+    if (samples[i] != mask_sample(i, n, type)) return false;
   }
   return true;
 }
 
 Levels float_levels(const Image& image, int channel) {
-  std::vector<float> samples = samples_of<float>(image, channel);
-  check_finite(samples, image.size, channel);
+  std::vector<float> samples = floats_of(image, channel);
+  check_finite(samples, image, channel);
   const auto [least, greatest] = std::minmax_element(samples.begin(), samples.end());
-  Levels levels{.value = Grid<std::int32_t>(image.size), .offset = *least};
+  Levels levels{.value = Grid<std::int32_t>(image.shape()), .offset = *least};
   const double range = double{*greatest} - double{*least};
   if (range > 0.0) levels.unit = range / (kFloatLevels - 1);
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -94,7 +113,7 @@ Levels float_levels(const Image& image, int channel) {
                                      std::fabs(samples[i] - (levels.offset + levels.unit * levels.value[i])));
   }
   levels.distinct = occupied(histogram(levels.value, kFloatLevels));
-  levels.is_permutation = spread_like_a_mask(std::move(samples));
+  levels.is_permutation = spread_like_a_mask(std::move(samples), image.type);
   return levels;
 }
 
@@ -122,9 +141,11 @@ ChannelSamples samples_of_channel(const Image& image, int channel) {
     case SampleType::u16:
       return {doubles_of<std::uint16_t>(image, channel), 0.0, 65536.0};
     case SampleType::f32:
+    case SampleType::f16:
       break;
   }
-  ChannelSamples samples{doubles_of<float>(image, channel)};
+  const std::vector<float> floats = floats_of(image, channel);
+  ChannelSamples samples{{floats.begin(), floats.end()}};
   const auto [least, greatest] = std::minmax_element(samples.value.begin(), samples.value.end());
   if (*least < 0.0 || *greatest > 1.0) {
     samples.low = *least;
@@ -151,6 +172,7 @@ Levels levels_of_channel(const Image& image, int channel) {
     case SampleType::u16:
       return integer_levels<std::uint16_t>(image, channel);
     case SampleType::f32:
+    case SampleType::f16:
       break;
   }
   return float_levels(image, channel);

@@ -77,10 +77,28 @@ Bytes read_file(const std::filesystem::path& path, const Execution& execution) {
   return bytes;
 }
 
+/// The metadata of a DDS. A fault of their file is no fault of the picture.
+void read_metadata_beside(const std::filesystem::path& dds, const Execution& execution,
+                          FileContent& content) {
+  const std::filesystem::path beside = metadata_beside(dds);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(beside, error)) return;
+  Execution bounded = execution;
+  bounded.memory_limit_bytes = std::min<std::uint64_t>(execution.memory_limit_bytes, 4 * kMaxMetadataBytes);
+  try {
+    const Bytes json = read_file(beside, bounded);
+    read_description({reinterpret_cast<const char*>(json.data()), json.size()}, content);
+  } catch (const Error& problem) {
+    content.metadata_fault = problem.what();
+  }
+}
+
 Decoded decode_by_content(ByteView bytes, const std::string& name, const Execution& execution) {
   if (bytes.empty()) fail_input(name, "an empty file");
   if (is_bin(bytes)) return decode_bin(bytes, name, execution);
   if (is_c_header(bytes)) return decode_c_header(bytes, name, execution);
+  if (is_ktx2(bytes)) return decode_ktx2(bytes, name, execution);
+  if (is_dds(bytes)) return decode_dds(bytes, name, execution);
   if (begins_with(bytes, kPng)) return decode_png(bytes, name, execution);
   for (const Signature& signature : kSignatures) {
     if (begins_with(bytes, signature.bytes)) return decode_oiio(bytes, signature.format, name, execution);
@@ -89,9 +107,9 @@ Decoded decode_by_content(ByteView bytes, const std::string& name, const Executi
   for (const std::string_view known : kExtensions) {
     if (extension == known) return decode_oiio(bytes, extension, name, execution);
   }
-  fail_input(
-      name, "not an image of a known format",
-      fmt::format("PNG, EXR, TIFF, .bin and .h by content, {} by extension", fmt::join(kExtensions, ", ")));
+  fail_input(name, "not an image of a known format",
+             fmt::format("PNG, EXR, TIFF, KTX2, DDS, .bin and .h by content, {} by extension",
+                         fmt::join(kExtensions, ", ")));
 }
 
 }  // namespace
@@ -112,13 +130,30 @@ Decoded decode(ByteView bytes, const std::string& name, const Execution& executi
   }
 }
 
+FileContent read_any(const std::filesystem::path& path, const Execution& execution) {
+  const Bytes bytes = read_file(path, execution);
+  Decoded decoded = decode(std::as_bytes(std::span(bytes)), path.string(), execution);
+  FileContent content{.image = std::move(decoded.image),
+                      .slices = decoded.slices,
+                      .notes = std::move(decoded.notes),
+                      .metadata = {},
+                      .metadata_fault = {}};
+  if (is_dds(std::as_bytes(std::span(bytes)))) {
+    read_metadata_beside(path, execution, content);
+  } else {
+    read_description(decoded.description, content);
+  }
+  return content;
+}
+
 }  // namespace texture
 
 FileContent read_image(const std::filesystem::path& path, const Execution& execution) {
-  const texture::Bytes bytes = texture::read_file(path, execution);
-  texture::Decoded decoded = texture::decode(std::as_bytes(std::span(bytes)), path.string(), execution);
-  FileContent content{.image = std::move(decoded.image), .metadata = {}, .metadata_fault = {}};
-  texture::read_description(decoded.description, content);
+  FileContent content = texture::read_any(path, execution);
+  if (content.image.depth > 1) {
+    texture::fail_input(path.string(), fmt::format("a volume of {} slices", content.image.depth),
+                        "one picture", "take one slice out of it, or give it where a volume is asked for");
+  }
   return content;
 }
 

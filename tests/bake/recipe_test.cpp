@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{5, "outputs = [{ type = '8bit' }]", {"path is missing"}},
         Mistake{5,
                 "outputs = [{ path = 'm.png', type = '8' }]",
-                {"type is '8'", "\"8bit\", \"16bit\", \"float\""}},
+                {"type is '8'", "\"8bit\", \"16bit\", \"half\", \"float\""}},
         Mistake{
             5, "outputs = [{ path = 'm.png', typ = '8bit' }]", {"unknown key 'typ'", "did you mean 'type'?"}},
         Mistake{5,

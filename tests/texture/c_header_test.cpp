@@ -62,12 +62,46 @@ TEST(CHeader, Golden) {
   const std::string text = bytes_of(folder / "small.h");
   EXPECT_EQ(text.substr(0, text.find("bn-metadata")),
             "/* Texture written by libbn 1.2.3: 3x2 pixels, channels: 1, 8bit.\nOrigin top-left; "
-            "bn_small[y][x].\n\n");
+            "bn_small[y][x].\nThe channel is a blue-noise mask: samples are floor(rank x 256 / N), rank "
+            "0..N-1, N = 6 pixels.\n\n");
   EXPECT_EQ(
       text.substr(text.find("*/")),
       "*/\n#ifndef BN_SMALL_H\n#define BN_SMALL_H\n\n#include <stdint.h>\n\n#define BN_SMALL_WIDTH 3\n"
       "#define BN_SMALL_HEIGHT 2\n#define BN_SMALL_CHANNELS 1\n\nstatic const uint8_t bn_small[2][3] = {\n"
       "  {0,1,2},\n  {253,254,255},\n};\n\n#endif /* BN_SMALL_H */\n");
+}
+
+TEST(CHeader, GoldenVolume) {
+  const TemporaryFolder folder;
+  Image volume = image_of<std::uint8_t>({2, 1}, 2, SampleType::u8, {0, 1, 2, 3, 4, 5, 6, 7});
+  volume.depth = 2;
+  Metadata metadata;
+  metadata.tool_version = "1.2.3";
+  write_image(folder / "small.h", volume, metadata);
+  const std::string text = bytes_of(folder / "small.h");
+  EXPECT_EQ(text.substr(0, text.find("bn-metadata")),
+            "/* Texture written by libbn 1.2.3: 2x1x2 pixels, channels: 2, 8bit.\nOrigin top-left; "
+            "bn_small[z][y][x][channel].\n2 slices of 2x1 pixels, one after the other; the volume wraps in z "
+            "too.\n\n");
+  EXPECT_EQ(
+      text.substr(text.find("#define BN_SMALL_W")),
+      "#define BN_SMALL_WIDTH 2\n#define BN_SMALL_HEIGHT 1\n#define BN_SMALL_CHANNELS 2\n"
+      "#define BN_SMALL_DEPTH 2\n\nstatic const uint8_t bn_small[2][1][2][2] = {\n {\n  {{0,1},{2,3}},\n },\n"
+      " {\n  {{4,5},{6,7}},\n },\n};\n\n#endif /* BN_SMALL_H */\n");
+}
+
+TEST(CHeader, SaysWhatTheChannelsOfAnAtlasMean) {
+  Metadata metadata;
+  metadata.kind = "retarget-atlas";
+  for (int y = -1; y <= 1; ++y) {
+    for (int x = -1; x <= 1; ++x) metadata.tiles.push_back({.motion = {x, y}});
+  }
+  const auto sentences = content_description(random_image({12, 9}, 3, SampleType::u8), metadata);
+  ASSERT_EQ(sentences.size(), 2u);
+  EXPECT_NE(sentences[0].find("Channel 0 is x + 128, channel 1 is y + 128"), std::string::npos)
+      << sentences[0];
+  EXPECT_NE(sentences[1].find("3x3 tiles of 4x3 pixels"), std::string::npos) << sentences[1];
+  EXPECT_NE(sentences[1].find("x -1..1 from left to right"), std::string::npos) << sentences[1];
 }
 
 }  // namespace

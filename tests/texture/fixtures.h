@@ -62,11 +62,12 @@ inline void put_bytes(const std::filesystem::path& path, std::string_view bytes)
 }
 
 /// A picture of random samples; the floats are of every size and sign, and finite.
-inline Image random_image(Extent size, int channels, SampleType type, std::uint64_t seed = 1) {
-  Image image{.size = size,
+inline Image random_image(Shape shape, int channels, SampleType type, std::uint64_t seed = 1) {
+  Image image{.size = shape.slice(),
+              .depth = shape.depth,
               .channels = channels,
               .type = type,
-              .samples = std::vector<std::byte>(sample_bytes(size, channels, type))};
+              .samples = std::vector<std::byte>(sample_bytes(shape, channels, type))};
   for (std::size_t i = 0; i < image.samples.size(); ++i) {
     image.samples[i] = static_cast<std::byte>(random_bits(seed, 0, i) & 0xff);
   }
@@ -74,6 +75,11 @@ inline Image random_image(Extent size, int channels, SampleType type, std::uint6
     for (std::size_t i = 3; i < image.samples.size(); i += 4) {
       // An exponent below 255: finite.
       if ((image.samples[i] & std::byte{0x7f}) == std::byte{0x7f}) image.samples[i] &= std::byte{0xbf};
+    }
+  }
+  if (type == SampleType::f16) {
+    for (std::size_t i = 1; i < image.samples.size(); i += 2) {
+      if ((image.samples[i] & std::byte{0x7c}) == std::byte{0x7c}) image.samples[i] &= std::byte{0xbf};
     }
   }
   return image;
@@ -97,7 +103,7 @@ std::vector<Sample> samples_of(const Image& image) {
 }
 
 inline bool same_picture(const Image& a, const Image& b) {
-  return a.size == b.size && a.channels == b.channels && a.type == b.type && a.samples == b.samples;
+  return a.shape() == b.shape() && a.channels == b.channels && a.type == b.type && a.samples == b.samples;
 }
 
 /// Every member in use, and every character that a container could spoil.

@@ -11,17 +11,27 @@ namespace bn::texture {
 namespace {
 
 Bytes valid_file(const std::string& name) {
-  const bool wide = name.find('f') == 0;
   Metadata metadata;
   metadata.recipe = "x = 1\n";
-  const Image image = wide ? random_image({5, 4}, 2, SampleType::f32)
-                           : random_image({5, 4}, 3, name.find('w') == 0 ? SampleType::u16 : SampleType::u8);
+  const Image image = [&] {
+    switch (name[0]) {
+      case 'f':
+        return random_image({5, 4}, 2, SampleType::f32);
+      case 'w':
+        return random_image({5, 4}, name.ends_with(".dds") ? 4 : 3, SampleType::u16);
+      case 'v':
+        return random_image({5, 4, 3}, 2, SampleType::u8);
+      default:
+        return random_image({5, 4}, name.ends_with(".dds") ? 4 : 3, SampleType::u8);
+    }
+  }();
   metadata.pixel_hash = pixel_hash(image);
   return encode(name, image, metadata);
 }
 
-const std::vector<std::string> kFiles = {"b.png", "w.png", "f.exr", "b.tif", "w.tif",
-                                         "f.tif", "b.bin", "f.bin", "b.h",   "f.h"};
+const std::vector<std::string> kFiles = {"b.png",  "w.png",  "f.exr",  "b.tif", "w.tif", "f.tif",
+                                         "b.bin",  "f.bin",  "v.bin",  "b.h",   "f.h",   "v.h",
+                                         "b.ktx2", "f.ktx2", "v.ktx2", "b.dds", "w.dds", "v.dds"};
 
 /// Decodes; true if an image came out. Anything but a bn::Error fails the test.
 bool survives(const Bytes& bytes, const Execution& execution = {.memory_limit_bytes = 64 << 20}) {
@@ -73,6 +83,15 @@ TEST_P(Hostile, EveryByteDamaged) {
       damaged[at] = static_cast<unsigned char>(damaged[at] ^ damage);
       survives(damaged);
     }
+  }
+}
+
+TEST_P(Hostile, EveryBitOfTheHeaderFlipped) {
+  const Bytes whole = valid_file(GetParam());
+  for (std::size_t bit = 0; bit < 8 * std::min<std::size_t>(256, whole.size()); ++bit) {
+    Bytes damaged = whole;
+    damaged[bit / 8] = static_cast<unsigned char>(damaged[bit / 8] ^ 1u << bit % 8);
+    survives(damaged);
   }
 }
 

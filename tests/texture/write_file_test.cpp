@@ -283,21 +283,27 @@ TEST(CheckWritable, SaysBeforehandWhatWritingWouldSay) {
     ErrorCode code;
   };
   using enum SampleType;
-  for (const Case& c :
-       {Case{folder / "a.gif", u8, 3, ErrorCode::invalid_input},
-        Case{folder / "a", u8, 3, ErrorCode::invalid_input},
-        Case{folder / "", u8, 3, ErrorCode::invalid_input}, Case{"", u8, 3, ErrorCode::invalid_input},
-        Case{folder / ".png", u8, 3, ErrorCode::invalid_input},
-        Case{folder / "a.png", f32, 3, ErrorCode::invalid_input},
-        Case{folder / "a.png", u8, 2, ErrorCode::invalid_input},
-        Case{folder / "a.png", u8, 5, ErrorCode::invalid_input},
-        Case{folder / "a.exr", u8, 1, ErrorCode::invalid_input},
-        Case{folder / "a.exr", u16, 1, ErrorCode::invalid_input},
-        Case{folder / "a.tif", u8, 0, ErrorCode::invalid_input},
-        Case{folder / "a.bin", u8, 65, ErrorCode::invalid_input},
-        Case{folder / "missing" / "a.png", u8, 3, ErrorCode::io},
-        Case{folder / "file" / "a.png", u8, 3, ErrorCode::io},
-        Case{folder / "folder.png", u8, 3, ErrorCode::io}, Case{folder / "pipe.png", u8, 3, ErrorCode::io}}) {
+  for (const Case& c : {Case{folder / "a.gif", u8, 3, ErrorCode::invalid_input},
+                        Case{folder / "a", u8, 3, ErrorCode::invalid_input},
+                        Case{folder / "", u8, 3, ErrorCode::invalid_input},
+                        Case{"", u8, 3, ErrorCode::invalid_input},
+                        Case{folder / ".png", u8, 3, ErrorCode::invalid_input},
+                        Case{folder / "a.png", f32, 3, ErrorCode::invalid_input},
+                        Case{folder / "a.png", f16, 3, ErrorCode::invalid_input},
+                        Case{folder / "a.h", f16, 3, ErrorCode::invalid_input},
+                        Case{folder / "a.exr", f16, 3, ErrorCode::invalid_input},
+                        Case{folder / "a.ktx2", u8, 5, ErrorCode::invalid_input},
+                        Case{folder / "a.dds", u8, 3, ErrorCode::invalid_input},
+                        Case{folder / "a.dds", u8, 5, ErrorCode::invalid_input},
+                        Case{folder / "a.png", u8, 5, ErrorCode::invalid_input},
+                        Case{folder / "a.exr", u8, 1, ErrorCode::invalid_input},
+                        Case{folder / "a.exr", u16, 1, ErrorCode::invalid_input},
+                        Case{folder / "a.tif", u8, 0, ErrorCode::invalid_input},
+                        Case{folder / "a.bin", u8, 65, ErrorCode::invalid_input},
+                        Case{folder / "missing" / "a.png", u8, 3, ErrorCode::io},
+                        Case{folder / "file" / "a.png", u8, 3, ErrorCode::io},
+                        Case{folder / "folder.png", u8, 3, ErrorCode::io},
+                        Case{folder / "pipe.png", u8, 3, ErrorCode::io}}) {
     SCOPED_TRACE(c.path.string());
     expect_error(c.code, [&] { check_writable(c.path, c.type, c.channels); });
     if (c.channels == 0) continue;

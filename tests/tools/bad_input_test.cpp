@@ -96,7 +96,8 @@ TEST_F(BadInput, MissingFilesAndFoldersWhereFilesAreWanted) {
   expect_failure(2, {"bake", "missing.toml"}, {"missing.toml"});
   expect_failure(2, {"verify", "missing"}, {"missing"});
   std::filesystem::create_directory(scratch_ / "folder.png");
-  expect_failure(2, {"info", "folder.png"}, {"folder.png"});
+  // A folder may hold the slices of a volume; this one holds nothing.
+  expect_failure(3, {"info", "folder.png"}, {"folder.png", "no image in this folder"});
   expect_failure(2, {"bake", "folder.png"}, {"folder.png"});
   expect_failure(2, {"noise", "void-and-cluster", "--size", "16x16", "-o", "folder.png"}, {"folder.png"});
 }

@@ -76,7 +76,10 @@ Options MaskEntry::output_options(std::size_t output) {
   Options options;
   options
       .choice<SampleType>("type", outputs.at(output).type,
-                          {{"8bit", SampleType::u8}, {"16bit", SampleType::u16}, {"float", SampleType::f32}},
+                          {{"8bit", SampleType::u8},
+                           {"16bit", SampleType::u16},
+                           {"half", SampleType::f16},
+                           {"float", SampleType::f32}},
                           "What the samples of the file are.")
       .if_unset("float for .exr, else 8bit");
   return options;

@@ -68,8 +68,10 @@ constexpr int kMaxStep = 1 << 24;  // far above any tile's side; keeps every pro
 constexpr std::int64_t kMany = std::numeric_limits<std::int64_t>::max();
 constexpr double kAny = std::numeric_limits<double>::infinity();
 
-const std::vector<std::pair<std::string, SampleType>> kSampleTypes = {
-    {"8bit", SampleType::u8}, {"16bit", SampleType::u16}, {"float", SampleType::f32}};
+const std::vector<std::pair<std::string, SampleType>> kSampleTypes = {{"8bit", SampleType::u8},
+                                                                      {"16bit", SampleType::u16},
+                                                                      {"half", SampleType::f16},
+                                                                      {"float", SampleType::f32}};
 
 /// The options that only annealing has. `when` says whether the entry anneals.
 void declare_annealing(Options& options, RetargetEntry& entry) {

@@ -1,0 +1,68 @@
+// What the channels of a texture mean and how its tiles or slices are laid out, in sentences for people: for
+// the comment of a .h and for bn info.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bn/texture.h"
+
+namespace bn {
+namespace {
+
+std::string mask_samples(SampleType type) {
+  switch (type) {
+    case SampleType::u8:
+      return "floor(rank x 256 / N)";
+    case SampleType::u16:
+      return "floor(rank x 65536 / N)";
+    case SampleType::f32:
+    case SampleType::f16:
+      break;
+  }
+  return "(rank + 0.5) / N";
+}
+
+void add_mask(std::vector<std::string>& sentences, const Image& image) {
+  sentences.push_back(fmt::format("{} a blue-noise mask: samples are {}, rank 0..N-1, N = {} pixels.",
+                                  image.channels == 1 ? "The channel is" : "Each channel is",
+                                  mask_samples(image.type), image.shape().count()));
+}
+
+void add_moves(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
+  const bool gather = metadata.facts.get<std::string>("form") == "gather";
+  sentences.push_back(
+      fmt::format("Channel 0 is x + 128, channel 1 is y + 128{}: {}, in pixels.",
+                  image.depth > 1 ? ", channel 2 is z + 128" : ", channel 2 is 0",
+                  gather ? "where the seed of a pixel comes from" : "where the seed of a pixel goes"));
+}
+
+}  // namespace
+
+std::vector<std::string> content_description(const Image& image, const Metadata& metadata) {
+  std::vector<std::string> sentences;
+  const bool atlas = metadata.kind == "retarget-atlas";
+  if (metadata.kind == "mask") add_mask(sentences, image);
+  if (atlas || metadata.kind == "retarget-tile") add_moves(sentences, image, metadata);
+  if (atlas && !metadata.tiles.empty()) {
+    const auto count = static_cast<int>(metadata.tiles.size());
+    const int columns = static_cast<int>(std::lround(std::sqrt(count)));
+    if (columns * columns == count && image.size.width % columns == 0 && image.size.height % columns == 0) {
+      const Offset first = metadata.tiles.front().motion, last = metadata.tiles.back().motion;
+      sentences.push_back(
+          fmt::format("An atlas of {}x{} tiles of {}x{} pixels, row by row: motions x {}..{} from left to "
+                      "right, y {}..{} "
+                      "downwards.",
+                      columns, columns, image.size.width / columns, image.size.height / columns, first.x,
+                      last.x, first.y, last.y));
+    }
+  }
+  if (image.depth > 1) {
+    sentences.push_back(
+        fmt::format("{} slices of {}x{} pixels, one after the other; the volume wraps in z too.", image.depth,
+                    image.size.width, image.size.height));
+  }
+  return sentences;
+}
+
+}  // namespace bn

@@ -1,0 +1,171 @@
+// bn pack: channels of several files as one texture.
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+
+#include "bn/error.h"
+#include "bn/volume.h"
+#include "tools/records.h"
+#include "tools/verb.h"
+
+namespace bn::tools {
+namespace {
+
+/// One argument: a file and, behind a colon, one of its channels.
+struct ChannelSource {
+  std::filesystem::path path;
+  std::optional<int> channel;  ///< empty: all of them
+};
+
+struct Settings {
+  std::vector<ChannelSource> sources;
+  std::filesystem::path out;
+  SliceKind slices = SliceKind::layers;
+  bool json = false;
+};
+
+ValueKind<ChannelSource> channel_source() {
+  return {.placeholder = "FILE[:CHANNEL]",
+          .allowed = "channels from 0",
+          .parse =
+              [](std::string_view text, std::string_view where) {
+                const std::filesystem::path whole = file_path().parse(text, where);
+                const std::size_t colon = text.rfind(':');
+                std::error_code error;
+                const bool digits = colon != std::string_view::npos && colon + 1 < text.size() && colon > 0 &&
+                                    text.find_first_not_of("0123456789", colon + 1) == std::string_view::npos;
+                if (!digits || std::filesystem::exists(whole, error)) return ChannelSource{whole, {}};
+                return ChannelSource{std::filesystem::path(text.substr(0, colon)),
+                                     integer_in(0, 63).parse(text.substr(colon + 1), where)};
+              },
+          .show = {},
+          .completion = Completion::file};
+}
+
+std::string layout_text(const Image& image) {
+  return fmt::format("{}x{}{} pixels, {}", image.size.width, image.size.height,
+                     image.depth > 1 ? fmt::format("x{}", image.depth) : "", name_of(image.type));
+}
+
+/// The channels that the arguments name, all of one size and type. `files` keeps the images.
+struct Channels {
+  std::vector<ChannelRef> refs;
+  Json list = Json::array();
+};
+
+Channels channels_of(const Settings& settings, const std::map<std::filesystem::path, Volume>& files) {
+  Channels channels;
+  const std::filesystem::path& first_path = settings.sources.front().path;
+  const Image& first = files.at(first_path).image;
+  for (const ChannelSource& source : settings.sources) {
+    const Image& image = files.at(source.path).image;
+    const auto refuse = [&](std::string what, std::string limit, std::string remedy) {
+      throw Error({.code = ErrorCode::invalid_input,
+                   .what = std::move(what),
+                   .where = source.path.string(),
+                   .limit = std::move(limit),
+                   .remedy = std::move(remedy)});
+    };
+    if (image.shape() != first.shape() || image.type != first.type) {
+      refuse(layout_text(image), fmt::format("{}, as {}", layout_text(first), first_path.string()),
+             "pack files of one size and type");
+    }
+    if (source.channel && *source.channel >= image.channels) {
+      refuse(fmt::format("it has no channel {}", *source.channel), fmt::format("0..{}", image.channels - 1),
+             "");
+    }
+    const int begin = source.channel.value_or(0);
+    const int end = source.channel ? begin + 1 : image.channels;
+    for (int c = begin; c < end; ++c) {
+      channels.refs.push_back({&image, c});
+      channels.list.push_back({{"file", source.path.string()}, {"channel", c}});
+    }
+  }
+  return channels;
+}
+
+/// The command, as a comment of TOML: there is no recipe that makes such a file.
+std::string recipe_of(const Settings& settings, const Json& list) {
+  std::string text = "# bn pack";
+  for (const Json& item : list) {
+    text += fmt::format(" {}:{}", item["file"].get<std::string>(), item["channel"].get<int>());
+  }
+  text += " -o " + settings.out.filename().string();
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < ' ' || static_cast<unsigned char>(c) > '~') c = '?';
+  }
+  return text + "\n";
+}
+
+void run(const Settings& settings, Session& session) {
+  std::map<std::filesystem::path, Volume> files;
+  for (const ChannelSource& source : settings.sources) {
+    if (!files.contains(source.path)) {
+      files.emplace(source.path, read_volume(source.path, {}, session.execution));
+    }
+  }
+  const Channels channels = channels_of(settings, files);
+  const Image& first = *channels.refs.front().image;
+  const VolumeOutput output{.slices = settings.slices, .atlas = {}};
+  // Before the samples are copied: what the format cannot hold.
+  check_volume_writable(settings.out, first.shape(), first.type, static_cast<int>(channels.refs.size()),
+                        output);
+  check_memory(session.execution,
+               channels.refs.size() * (first.samples.size() / static_cast<std::size_t>(first.channels)),
+               settings.out.string());
+  const Image packed = pack_channels(channels.refs);
+  Metadata metadata;
+  metadata.algorithm = "pack";
+  metadata.algorithm_version = 1;
+  metadata.kind = "packed";
+  metadata.recipe = recipe_of(settings, channels.list);
+  const auto written = write_volume(settings.out, packed, metadata, output);
+  Json result{{"file", settings.out.string()},
+              {"size", to_json(packed.size)},
+              {"channels", packed.channels},
+              {"type", name_of(packed.type)},
+              {"pixel_hash", pixel_hash(packed)}};
+  if (packed.depth > 1) result["depth"] = packed.depth;
+  if (written.size() > 1) result["files"] = written.size();
+  result["sources"] = channels.list;
+  session.output.write_result(result, settings.json);
+}
+
+}  // namespace
+
+Verb pack_verb() {
+  const auto settings = std::make_shared<Settings>();
+  Verb verb;
+  verb.name = "pack";
+  verb.summary = "Put channels of several files into one texture.";
+  verb.examples = {
+      {"bn pack a.png b.png c.png d.png -o rgba.png", "four masks as red, green, blue and alpha"},
+      {"bn pack rgba.png:3 other.exr:0 -o two.ktx2", "chosen channels; the first is 0"},
+      {"bn pack stack_a stack_b -o both.ktx2", "two folders of slices as a volume of two channels"}};
+  verb.details =
+      "A FILE gives all its channels, FILE:N gives channel N alone. It may also be a folder of slices or a "
+      "pattern of numbered ones (slice_%03d.png). Samples are copied as they are: nothing is converted, "
+      "scaled "
+      "or multiplied by alpha, so the fourth channel leaves the other three alone. All files must have one "
+      "size "
+      "and sample type.\n\n"
+      "The extension of the output names the format: .png and .ktx2 hold up to 4 channels, .dds 1, 2 or 4 "
+      "(of "
+      "floats also 3), .exr, .tif, .bin and .h up to 64. Volumes go to .ktx2, .dds, .bin, .h, or to a "
+      "pattern.";
+  verb.arguments.positional_list("FILE", settings->sources, channel_source(),
+                                 "What to pack, in the order of the channels; FILE:N takes one channel.");
+  verb.arguments.required_option("--out", settings->out, file_path(), "The file to write.", "-o");
+  verb.arguments.option(
+      "--slices", settings->slices,
+      choice_of<SliceKind>({{"layers", SliceKind::layers}, {"depth", SliceKind::depth}}),
+      "What the slices of a volume become in .ktx2 and .dds: layers of a 2D array, or the depth of "
+      "a 3D texture.");
+  verb.arguments.flag("--json", settings->json, true, "Print JSON.");
+  verb.run = [settings](Session& session) { run(*settings, session); };
+  return verb;
+}
+
+}  // namespace bn::tools
