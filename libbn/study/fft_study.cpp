@@ -5,19 +5,20 @@
 // sums; each method is timed on the same picture, whose values are exact in float, and held against them.
 // The peer's transform is complex and unitary: its results are scaled by sqrt(N) before they are compared.
 
-#include <OpenImageIO/imagebuf.h>
-#include <OpenImageIO/imagebufalgo.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <functional>
 #include <numbers>
 
 #include "bn/error.h"
 #include "bn/random.h"
 #include "bn/spectrum.h"
 #include "bn_study/fft.h"
+#include "core/module.h"
+#include "oiio/fft.h"
 
 namespace bn {
 namespace {
@@ -117,23 +118,28 @@ FftStudyRow study_ours(const std::vector<float>& values, int side, const std::ve
   return {"bn", sizeof(T) == sizeof(float) ? "float" : "double", side, seconds, error};
 }
 
-FftStudyRow study_openimageio(std::vector<float> values, int side, const std::vector<Column>& columns,
+FftStudyRow study_openimageio(const std::vector<float>& values, int side, const std::vector<Column>& columns,
                               const Execution& execution) {
-  const OIIO::ImageBuf source(OIIO::ImageSpec(side, side, 1, OIIO::TypeDesc::FLOAT), values.data());
-  OIIO::ImageBuf spectrum;
-  const double seconds = median_seconds(
-      [&] {
-        if (OIIO::ImageBufAlgo::fft(spectrum, source, OIIO::ROI::All(), 1)) return;
-        throw Error({.code = ErrorCode::invalid_input,
-                     .what = spectrum.geterror(),
-                     .where = "OpenImageIO's fft",
-                     .limit = "",
-                     .remedy = ""});
-      },
-      execution);
+  const auto fft = reinterpret_cast<oiio::Fft*>(
+      module_symbol("bn_oiio", oiio::kFftSymbol, "the comparison with OpenImageIO",
+                    "install OpenImageIO (Debian: libopenimageio2.4)"));
+  double seconds = 0.0;
+  std::vector<std::complex<float>> spectrum;
+  std::string problem;
+  fft(
+      values.data(), side,
+      [&](const std::function<void()>& call) { seconds = median_seconds(call, execution); }, spectrum,
+      problem);
+  if (!problem.empty()) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = problem,
+                 .where = "OpenImageIO's fft",
+                 .limit = "",
+                 .remedy = ""});
+  }
   const double error = relative_error(columns, side, [&](int kx, int ky) {
     return static_cast<long double>(side) *
-           LongComplex(spectrum.getchannel(kx, ky, 0, 0), spectrum.getchannel(kx, ky, 0, 1));
+           LongComplex(spectrum[static_cast<std::size_t>(std::int64_t{ky} * side + kx)]);
   });
   return {"OpenImageIO", "float", side, seconds, error};
 }

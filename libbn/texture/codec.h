@@ -49,7 +49,7 @@ bool holds_volumes(const std::filesystem::path& path);
 /// The file of the metadata of a DDS.
 std::filesystem::path metadata_beside(const std::filesystem::path& dds);
 
-// Through OpenImageIO. `format` is its name of a format: "openexr", "tiff", or an extension.
+// Through OpenImageIO, in a module that is loaded now. `format` is its name of a format: "openexr", "tiff", or an extension.
 Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
                     const Execution& execution);
 Bytes encode_oiio(const std::string& format, const Image& image, const std::string& description);
@@ -57,8 +57,10 @@ Bytes encode_oiio(const std::string& format, const Image& image, const std::stri
 /// Throws unless every attribute of an EXR header lies inside the file.
 void check_exr_header(ByteView bytes, const std::string& name);
 
-// PNG is read without OpenImageIO; png.cpp says why.
+// PNG, by libpng.
 Decoded decode_png(ByteView bytes, const std::string& name, const Execution& execution);
+/// `description` is left out where it is empty.
+Bytes encode_png(const Image& image, const std::string& description);
 
 // Our own raw format.
 bool is_bin(ByteView bytes);

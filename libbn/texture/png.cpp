@@ -1,5 +1,5 @@
-// Reading PNG with libpng itself. OpenImageIO, which reads and writes everything else, lets libpng
-// print to stderr when a file is corrupt, and hands out half a picture when only the end is missing.
+// Reading PNG with libpng itself. OpenImageIO lets libpng print to stderr when a file is corrupt, hands out half a
+// picture when only the end is missing, and takes 0.2 s to start.
 //
 // Samples are those stored: no gamma, no multiplication by alpha. Palettes become colours, 1, 2 and
 // 4 bit grey becomes 8 bit (0..255), transparency becomes a channel.

@@ -31,7 +31,7 @@ struct Format {
 };
 
 constexpr Format kFormats[] = {
-    {"png", "png", true, false, false, false, 4},
+    {"png", nullptr, true, false, false, false, 4},
     {"exr", "openexr", false, true, false, false},
     {"tif", "tiff", true, true, false, false, kMaxChannels, kMaxTiffDescription},
     {"tiff", "tiff", true, true, false, false, kMaxChannels, kMaxTiffDescription},
@@ -144,6 +144,7 @@ Bytes encode(const std::filesystem::path& path, const Image& image, const Metada
                "shorten the recipe or choose another format");
   }
   if (format.oiio != nullptr) return encode_oiio(format.oiio, image, json);
+  if (format.extension == "png") return encode_png(image, json);
   if (format.extension == "bin") return encode_bin(image, metadata);
   if (format.extension == "ktx2") return encode_ktx2(image, metadata, slices);
   if (format.extension == "dds") return encode_dds(image, slices);
@@ -208,7 +209,7 @@ std::vector<unsigned char> encode_png(const Image& image) {
   const std::string where = "PNG in memory";
   texture::format_for("memory.png", image.type, image.channels, image.depth);
   texture::check_image(image, where);
-  return texture::encode_oiio("png", image, "");
+  return texture::encode_png(image, "");
 }
 
 void check_text_writable(const std::filesystem::path& path) { texture::check_replaceable(path); }

@@ -1,5 +1,6 @@
-// Reading (but for PNG) and writing through OpenImageIO, in memory: it never sees a path, so it opens no file
-// and leaves none behind.
+// Reading and writing EXR, TIFF and foreign formats through OpenImageIO, in memory: it never sees a path, so
+// it opens no file and leaves none behind. Part of the module bn_oiio, which libbn/texture loads when it
+// meets such a file.
 //
 // What its defaults would do and we do not want: multiply colour by alpha on reading (masks keep
 // independent values in the four channels), mark the second or fourth channel as alpha on writing,
@@ -15,11 +16,15 @@
 #include <memory>
 #include <mutex>
 
-#include "texture/codec.h"
+#include "bn/version.h"
 #include "texture/error.h"
 #include "texture/image.h"
+#include "texture/oiio_module.h"
 
-namespace bn::texture {
+namespace bn::oiio {
+
+using namespace texture;
+
 namespace {
 
 using OIIO::TypeDesc;
@@ -156,8 +161,8 @@ TypeDesc type_desc(SampleType type) {
 
 }  // namespace
 
-Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
-                    const Execution& execution) {
+Decoded decode(ByteView bytes, const std::string& format, const std::string& name,
+               const Execution& execution) {
   configure();
   if (format == "openexr") check_exr_header(bytes, name);
   MemoryReader reader(bytes);
@@ -196,7 +201,7 @@ Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string
   return decoded;
 }
 
-Bytes encode_oiio(const std::string& format, const Image& image, const std::string& description) {
+Bytes encode(const std::string& format, const Image& image, const std::string& description) {
   configure();
   Bytes bytes;
   OIIO::Filesystem::IOVecOutput writer(bytes);
@@ -211,10 +216,7 @@ Bytes encode_oiio(const std::string& format, const Image& image, const std::stri
   OIIO::ImageSpec spec(image.size.width, image.size.height, image.channels, type);
   spec.channelnames = channel_names(image.channels);
   spec.alpha_channel = -1;
-  // In PNG the fourth channel is alpha whatever we say; this keeps the samples from being divided by it.
   spec.attribute("oiio:UnassociatedAlpha", 1);
-  // No colour space is named: in PNG "linear" would make a gamma of 1, and readers that honour it
-  // would change the samples.
   spec.attribute("compression", "zip");
   spec.attribute("ImageDescription", description);
   spec.attribute("DateTime", "");  // left out, EXR would get the time of writing
@@ -225,4 +227,10 @@ Bytes encode_oiio(const std::string& format, const Image& image, const std::stri
   return bytes;
 }
 
-}  // namespace bn::texture
+}  // namespace bn::oiio
+
+extern "C" const bn::texture::OiioCodec* bn_oiio_codec() {
+  static const bn::texture::OiioCodec codec{
+      .version = bn::kVersion, .decode = bn::oiio::decode, .encode = bn::oiio::encode};
+  return &codec;
+}
