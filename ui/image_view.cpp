@@ -155,6 +155,9 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
   std::string below;
   if (!empty()) {
     prepare_texels();
+    // Large pictures come over several frames; a script waits for the whole one.
+    const bool coming = stale_ || preparing_.running() || texture_.pending();
+    items::record(fmt::format("{} shown", name), coming ? "not yet" : "yes");
     texture_.set_nearest(link.nearest);
     const double w = picture_->size.width, h = picture_->size.height;
     const double tiles = link.tiled ? 3.0 : 1.0;

@@ -50,7 +50,7 @@ TEST_F(ValidateVerb, WithoutMemory) {
   // A buffer above what lavapipe allows, and a process that may not grow.
   expect_failure(4, {"wall", "--size", "4096x4096"}, {"bytes", "render a smaller screen"});
 #if !defined(__SANITIZE_ADDRESS__)  // which reserves terabytes
-  expect_failure(4, {"wall", "--size", "4000x4000", "--device", "cpu"}, {"memory"}, "ulimit -v 1000000");
+  expect_failure(4, {"wall", "--size", "4000x4000", "--device", "cpu"}, {"memory"}, "ulimit -v 500000");
 #endif
 }
 
@@ -175,10 +175,12 @@ TEST_F(ValidateTextures, MissingAndForeignFilesAreRefused) {
   expect_failure(3, with_textures(), {"retarget.png"});
 }
 
-// Scenes go through the same door to TOML as recipes. The parser of these texts once ended the program with an abort.
+// Scenes go through the same door to TOML as recipes. The parser of these texts once ended the program with
+// an abort.
 TEST(ValidateScenes, ThatAreNoTomlEndWithAMessage) {
   const ScratchFolder scratch;
-  for (const char* text : {"a = [ }\n", "[.a]\n", "key \xc3\xa4 = 1\n", "a = \"", "[[quad]]\ncorner = [0, 0\n"}) {
+  for (const char* text :
+       {"a = [ }\n", "[.a]\n", "key \xc3\xa4 = 1\n", "a = \"", "[[quad]]\ncorner = [0, 0\n"}) {
     write_bytes(scratch / "a.toml", text);
     const auto result = run_bn({"validate", "a.toml", "-o", "out"}, {.folder = scratch.path()});
     EXPECT_EQ(result.exit_code, 3) << text << result.err;

@@ -232,7 +232,8 @@ wait-for Size = "4096 × 4096"
 wait-for Spectrum = "4096 × 4096" 60
 expect "Power, f ≤ 0.0625" > 0.98
 expect "Power, f ≤ 0.0625" < 1.02
-wait 60
+wait-for "Picture shown" = yes 60
+wait-for "Spectrum shown" = yes 60
 hover Picture 0.5 0.5
 wait 2
 print Pixel
