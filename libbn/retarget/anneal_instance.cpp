@@ -84,10 +84,11 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
     refuse("metric", "a filtered residual with the metric l1", "l2", "set the metric to l2");
   }
   for (const AnnealChannel& channel : problem.channels) {
-    if (channel.levels.size() != size) {
+    const MaskLevels masks = channel.masks();
+    if (masks.size() != size) {
       refuse("channels",
-             fmt::format("one of {}x{}, one of {}x{}", size.width, size.height, channel.levels.width(),
-                         channel.levels.height()),
+             fmt::format("one of {}x{}, one of {}x{}", size.width, size.height, masks.size().width,
+                         masks.size().height),
              "all of one size");
     }
     constexpr int kMaxWeight = 1000;
@@ -95,7 +96,7 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
       refuse("weights", fmt::format("{}", channel.weight), fmt::format("1..{}", kMaxWeight));
     }
     // Two pixels change, each between 0 and the largest cost; and the sum over channels stays in 2^62.
-    const std::int64_t largest_cost = check_levels(channel.levels, options.metric) * channel.weight;
+    const std::int64_t largest_cost = check_levels(masks, options.metric) * channel.weight;
     largest_change += 2 * largest_cost;
     if (largest_change > kMaxAnnealEnergy / std::max<std::int64_t>(2, size.area())) {
       throw Error({.code = ErrorCode::over_limit,
@@ -104,12 +105,14 @@ AnnealInstance::AnnealInstance(const AnnealProblem& problem, int swap_distance_p
                    .limit = "pixels * weights * largest costs <= 2^61",
                    .remedy = "use smaller weights, or the metric l1"});
     }
-    Grid<std::int32_t> levels = channel.levels;
-    const std::int32_t least = *std::min_element(levels.begin(), levels.end());
-    for (std::int32_t& level : levels) level -= least;
+    const std::int32_t least = level_range(masks).first;
+    const auto above_least = [least](Grid<std::int32_t> levels) {
+      for (std::int32_t& level : levels) level -= least;
+      return levels;
+    };
     const Shift step{wrap(options.step.x, slice.width), wrap(options.step.y, slice.height), step_z};
-    seed_level.push_back(shifted(*this, levels, {-step.x, -step.y, -step.z}));
-    landing_level.push_back(shifted(*this, levels, {options.motion.x, options.motion.y, 0}));
+    seed_level.push_back(shifted(*this, above_least(masks.from), {-step.x, -step.y, -step.z}));
+    landing_level.push_back(shifted(*this, above_least(masks.to), {options.motion.x, options.motion.y, 0}));
     weight.push_back(channel.weight);
   }
   const int distance = swap_distance_px == 0 ? default_swap_distance(options.radius) : swap_distance_px;

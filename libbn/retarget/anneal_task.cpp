@@ -32,8 +32,11 @@ std::uint64_t fingerprint_of(const AnnealProblem& problem, const AnnealOptions& 
   for (const AnnealChannel& channel : problem.channels) {
     put(text, std::int64_t{channel.levels.width()});
     put(text, std::int64_t{channel.weight});
-    const char* levels = reinterpret_cast<const char*>(channel.levels.data());
-    put(text, anneal::hash_of({levels, channel.levels.count() * sizeof(std::int32_t)}));
+    for (const Grid<std::int32_t>* grid : {&channel.levels, &channel.to}) {
+      if (grid->count() == 0) continue;
+      const char* levels = reinterpret_cast<const char*>(grid->data());
+      put(text, anneal::hash_of({levels, grid->count() * sizeof(std::int32_t)}));
+    }
   }
   put(text, std::int64_t{problem.depth}), put(text, std::int64_t{problem.step_z});
   const RetargetOptions& r = problem.retarget;

@@ -38,18 +38,29 @@ double mean_least_cost(const AnnealInstance& instance) {
   return static_cast<double>(sum) / static_cast<double>(samples);
 }
 
-/// The least cost above 0 of a pixel: of the two nearest levels of a channel. 1 if all are constant.
+/// The least cost above 0 of a pixel: of the two nearest levels, one that leaves and one that lands, of a
+/// channel. 1 if all are equal.
 std::int64_t finest_cost(const AnnealInstance& instance) {
+  constexpr std::uint8_t kLeaves = 1, kLands = 2;
   std::int64_t finest = kMaxAnnealEnergy;
   for (std::size_t c = 0; c < instance.weight.size(); ++c) {
-    const Grid<std::int32_t>& levels = instance.seed_level[c];
-    std::vector<bool> present(static_cast<std::size_t>(*std::max_element(levels.begin(), levels.end())) + 1);
-    for (const std::int32_t level : levels) present[static_cast<std::size_t>(level)] = true;
-    std::int32_t below = 0;  // the least level of each channel
-    for (std::int32_t level = 1; level < static_cast<std::int32_t>(present.size()); ++level) {
-      if (!present[static_cast<std::size_t>(level)]) continue;
-      finest = std::min(finest, instance.weight[c] * level_cost(level, below, instance.options.metric));
-      below = level;
+    const auto [least, most] = level_range({instance.seed_level[c], instance.landing_level[c]});
+    std::vector<std::uint8_t> present(static_cast<std::size_t>(most) + 1, 0);
+    for (const std::int32_t level : instance.seed_level[c])
+      present[static_cast<std::size_t>(level)] |= kLeaves;
+    for (const std::int32_t level : instance.landing_level[c])
+      present[static_cast<std::size_t>(level)] |= kLands;
+    std::int32_t leaving = -1, landing = -1;  // the nearest ones below
+    for (std::int32_t level = least; level <= most; ++level) {
+      const std::uint8_t here = present[static_cast<std::size_t>(level)];
+      const auto compare = [&](std::int32_t below) {
+        if (below < 0) return;
+        finest = std::min(finest, instance.weight[c] * level_cost(level, below, instance.options.metric));
+      };
+      if (here & kLeaves) compare(landing);
+      if (here & kLands) compare(leaving);
+      if (here & kLeaves) leaving = level;
+      if (here & kLands) landing = level;
     }
   }
   return finest == kMaxAnnealEnergy ? 1 : finest;

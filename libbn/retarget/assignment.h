@@ -47,14 +47,14 @@ Outcome complete_by_shortest_paths(AuctionState<T>& state, const Execution& exec
 
 /// The bound that prices (by pixel index, in units of cost / 2^scale_bits) prove for every permutation
 /// within reach, rounded up to a whole energy. From the definition alone, in exact integers.
-std::int64_t certified_lower_bound(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+std::int64_t certified_lower_bound(const MaskLevels& levels, const RetargetOptions& options,
                                    const std::vector<std::int64_t>& price, int scale_bits);
 
 /// Which integers carry prices; both give the same result.
 enum class PriceWidth { automatic, bits32, bits64 };
 
 /// solve_retarget() with the width chosen, for tests; throws over_limit where bits32 do not suffice.
-RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+RetargetTile solve_with_width(const MaskLevels& levels, const RetargetOptions& options,
                               const Execution& execution, PriceWidth width);
 
 }  // namespace bn::retarget

@@ -3,7 +3,7 @@
 namespace bn::retarget {
 
 template <class T>
-AuctionState<T>::AuctionState(const Grid<std::int32_t>& levels, const RetargetOptions& options)
+AuctionState<T>::AuctionState(const MaskLevels& levels, const RetargetOptions& options)
     : layout(levels.size(), reach_rows(levels.size(), options), options.wrap),
       window(reach_rows(levels.size(), options)),
       square(options.metric == Metric::l2),
@@ -13,8 +13,8 @@ AuctionState<T>::AuctionState(const Grid<std::int32_t>& levels, const RetargetOp
       assignee(row_level.size(), Assignee{kUnassigned, 0}),
       column_of(row_level.size(), kUnassigned) {
   const Grid<std::int32_t> from =
-      shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
-  const Grid<std::int32_t> onto = shifted(levels, options.motion.x, options.motion.y);
+      shifted(levels.from, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
+  const Grid<std::int32_t> onto = shifted(levels.to, options.motion.x, options.motion.y);
   layout.for_each_pixel([&](std::int32_t cell, int x, int y) {
     row_level[static_cast<std::size_t>(cell)] = from(x, y);
     layout.store(column_level, cell, onto(x, y));

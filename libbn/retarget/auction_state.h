@@ -39,7 +39,7 @@ struct AuctionState {
   static constexpr T kMaxPrice = kBlocked / 2;
   static constexpr T kMaxCost = kBlocked / 16;
 
-  AuctionState(const Grid<std::int32_t>& levels, const RetargetOptions& options);
+  AuctionState(const MaskLevels& levels, const RetargetOptions& options);
 
   PaddedTorus layout;
   std::vector<ReachRow> window;

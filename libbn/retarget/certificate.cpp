@@ -63,12 +63,12 @@ void copy_line(const T* line, int width, int before, int after, bool wrapped, st
 
 }  // namespace
 
-std::int64_t certified_lower_bound(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+std::int64_t certified_lower_bound(const MaskLevels& levels, const RetargetOptions& options,
                                    const std::vector<std::int64_t>& price, int scale_bits) {
   const auto [width, height] = levels.size();
   const Grid<std::int32_t> from =
-      shifted(levels, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
-  const Grid<std::int32_t> onto = shifted(levels, options.motion.x, options.motion.y);
+      shifted(levels.from, -std::int64_t{options.step.x}, -std::int64_t{options.step.y});
+  const Grid<std::int32_t> onto = shifted(levels.to, options.motion.x, options.motion.y);
   const std::vector<ReachRow> window = reach_rows(levels.size(), options);
   int before = 0, after = 0;
   for (const ReachRow& row : window) {

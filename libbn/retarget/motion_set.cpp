@@ -12,7 +12,7 @@
 namespace bn {
 using namespace retarget;
 
-std::vector<RetargetTile> solve_motion_set(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+std::vector<RetargetTile> solve_motion_set(const MaskLevels& levels, const RetargetOptions& options,
                                            int range, const Execution& execution) {
   constexpr int kMaxRange = 8;
   if (range < 0 || range > kMaxRange) {
@@ -32,7 +32,7 @@ std::vector<RetargetTile> solve_motion_set(const Grid<std::int32_t>& levels, con
   const auto at_once = static_cast<std::uint64_t>(std::min<std::int64_t>(thread_count(execution), count));
   check_memory(execution,
                at_once * exact_memory_bytes(levels.size(), options) +
-                   static_cast<std::uint64_t>(count) * levels.count() * sizeof(Offset),
+                   static_cast<std::uint64_t>(count) * levels.from.count() * sizeof(Offset),
                "motion set");
   std::vector<RetargetTile> tiles(static_cast<std::size_t>(count));
   ProgressMeter progress(execution, static_cast<std::uint64_t>(count));

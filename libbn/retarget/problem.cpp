@@ -41,17 +41,32 @@ void check_options(const RetargetOptions& options) {
   }
 }
 
-std::int64_t check_levels(const Grid<std::int32_t>& levels, Metric metric) {
-  if (levels.count() == 0) refuse("levels", "the image has no pixels", "at least 1x1");
-  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
-  for (const auto* extreme : {&*low, &*high}) {
-    if (*extreme >= 0 && *extreme <= kMaxLevel) continue;
-    const auto at = static_cast<std::int64_t>(extreme - levels.data());
+std::pair<std::int32_t, std::int32_t> level_range(const MaskLevels& levels) {
+  const auto [from_low, from_high] = std::minmax_element(levels.from.begin(), levels.from.end());
+  const auto [to_low, to_high] = std::minmax_element(levels.to.begin(), levels.to.end());
+  return {std::min(*from_low, *to_low), std::max(*from_high, *to_high)};
+}
+
+std::int64_t check_levels(const MaskLevels& levels, Metric metric) {
+  if (levels.from.count() == 0) refuse("levels", "the image has no pixels", "at least 1x1");
+  if (levels.from.size() != levels.to.size()) {
     refuse("levels",
-           fmt::format("level {} at pixel ({}, {})", *extreme, at % levels.width(), at / levels.width()),
-           fmt::format("0..{}", kMaxLevel));
+           fmt::format("a mask of {}x{} and one of {}x{}", levels.from.width(), levels.from.height(),
+                       levels.to.width(), levels.to.height()),
+           "both of one size");
   }
-  const std::int64_t largest = level_cost(*low, *high, metric);
+  for (const Grid<std::int32_t>* grid : {&levels.from, &levels.to}) {
+    const auto [low, high] = std::minmax_element(grid->begin(), grid->end());
+    for (const auto* extreme : {&*low, &*high}) {
+      if (*extreme >= 0 && *extreme <= kMaxLevel) continue;
+      const auto at = static_cast<std::int64_t>(extreme - grid->data());
+      refuse("levels",
+             fmt::format("level {} at pixel ({}, {})", *extreme, at % grid->width(), at / grid->width()),
+             fmt::format("0..{}", kMaxLevel));
+    }
+  }
+  const auto [low, high] = level_range(levels);
+  const std::int64_t largest = level_cost(low, high, metric);
   if (largest > kMaxEnergy / levels.size().area()) {
     throw Error({.code = ErrorCode::over_limit,
                  .what = fmt::format("{} pixels at up to {} each: the energy could pass 2^62",

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "bn/retarget.h"
@@ -27,9 +28,12 @@ constexpr bool within_reach(Offset k, const RetargetOptions& options) {
 /// Throws invalid_input, naming the option and its range, unless all of them are in range.
 void check_options(const RetargetOptions& options);
 
-/// Throws invalid_input unless the grid has pixels and each level is 0..2^24-1; over_limit if an
-/// energy could exceed 2^62. Returns the largest cost that a pair of pixels can have.
-std::int64_t check_levels(const Grid<std::int32_t>& levels, Metric metric);
+/// Throws invalid_input unless the grids have pixels, are of one size and each level is 0..2^24-1; over_limit
+/// if an energy could exceed 2^62. Returns the largest cost that a pair of pixels can have.
+std::int64_t check_levels(const MaskLevels& levels, Metric metric);
+
+/// The least and the greatest level of both grids.
+std::pair<std::int32_t, std::int32_t> level_range(const MaskLevels& levels);
 
 /// Memory of the exact solver for one tile: 64 bytes for each pixel of the tile and of a border of `radius`
 /// around it (but no wider than the tile reaches around itself).
@@ -51,7 +55,7 @@ std::vector<ReachRow> reach_rows(Extent size, const RetargetOptions& options);
 ///
 /// Solvers work in the coordinates of the tile that seeds land in, q = u + d, where the border of a tile
 /// without wrap lies: the seed at u = q - d, of level A(q) = D(q - d), that moves by R(u) = k + m pays
-/// cost(A(q), B(q + k)) with B(w) = D(w + m). So A = shifted(D, -d) and B = shifted(D, m).
+/// cost(A(q), B(q + k)) with B(w) = T(w + m). So A = shifted(D, -d) and B = shifted(T, m).
 Grid<std::int32_t> shifted(const Grid<std::int32_t>& levels, std::int64_t x, std::int64_t y);
 
 }  // namespace bn::retarget

@@ -113,6 +113,7 @@ class FilteredEnergy {
     for (std::size_t c = 0; c < instance.weight.size(); ++c) {
       std::int32_t most = 0;
       for (const std::int32_t level : instance.seed_level[c]) most = std::max(most, level);
+      for (const std::int32_t level : instance.landing_level[c]) most = std::max(most, level);
       sum += instance.weight[c] * most;
     }
     return sum;

@@ -14,11 +14,11 @@ namespace {
 
 /// Where the auction starts: a quarter of the usual distance between a level and the nearest one in its
 /// window, as a cost. Coarser only wastes bids; too fine is put right by the auction itself.
-std::int64_t first_epsilon(const Grid<std::int32_t>& levels, const RetargetOptions& options) {
-  const auto [low, high] = std::minmax_element(levels.begin(), levels.end());
+std::int64_t first_epsilon(const MaskLevels& levels, const RetargetOptions& options) {
+  const auto [low, high] = level_range(levels);
   std::int64_t columns = 0;
   for (const ReachRow& row : reach_rows(levels.size(), options)) columns += row.x_high - row.x_low + 1;
-  const std::int64_t spacing = std::int64_t{*high - *low} * level_scale(options.metric) / (6 * columns);
+  const std::int64_t spacing = std::int64_t{high - low} * level_scale(options.metric) / (6 * columns);
   return std::max<std::int64_t>(1, options.metric == Metric::l2 ? spacing * spacing : spacing);
 }
 
@@ -38,8 +38,8 @@ bool close_enough(std::int64_t energy, std::int64_t bound, double gap) {
   return static_cast<double>(energy - bound) <= gap * static_cast<double>(bound);
 }
 
-RetargetTile measured_tile(const Grid<std::int32_t>& levels, const RetargetOptions& options,
-                           Grid<Offset> move, std::int64_t lower_bound) {
+RetargetTile measured_tile(const MaskLevels& levels, const RetargetOptions& options, Grid<Offset> move,
+                           std::int64_t lower_bound) {
   RetargetTile tile;
   check_permutation(move, options);
   tile.start_energy = retarget_energy(levels, Grid<Offset>(levels.size(), options.motion), options);
@@ -51,7 +51,7 @@ RetargetTile measured_tile(const Grid<std::int32_t>& levels, const RetargetOptio
 
 /// Empty where prices outgrow T.
 template <class T>
-std::optional<RetargetTile> solve_with(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+std::optional<RetargetTile> solve_with(const MaskLevels& levels, const RetargetOptions& options,
                                        const Execution& execution, ProgressMeter& progress) {
   AuctionState<T> state(levels, options);
   state.refine(level_scale(options.metric));
@@ -83,7 +83,7 @@ std::optional<RetargetTile> solve_with(const Grid<std::int32_t>& levels, const R
 
 }  // namespace
 
-RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+RetargetTile solve_with_width(const MaskLevels& levels, const RetargetOptions& options,
                               const Execution& execution, PriceWidth width) {
   check_options(options);
   const std::int64_t largest_cost = check_levels(levels, options.metric);
@@ -95,7 +95,7 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
   // Each level of the auction and the exact finish count as one pass over the tile.
   int passes = 2;
   for (std::int64_t epsilon = first_epsilon(levels, options); epsilon > 1; epsilon /= 4) ++passes;
-  ProgressMeter progress(execution, levels.count() * static_cast<std::uint64_t>(passes));
+  ProgressMeter progress(execution, levels.from.count() * static_cast<std::uint64_t>(passes));
   std::optional<RetargetTile> tile;
   if (width != PriceWidth::bits64 && largest_cost * kPriceScale < AuctionState<std::int32_t>::kMaxCost) {
     tile = solve_with<std::int32_t>(levels, options, execution, progress);
@@ -115,7 +115,7 @@ RetargetTile solve_with_width(const Grid<std::int32_t>& levels, const RetargetOp
 
 }  // namespace retarget
 
-RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+RetargetTile solve_retarget(const MaskLevels& levels, const RetargetOptions& options,
                             const Execution& execution) {
   return retarget::solve_with_width(levels, options, execution, retarget::PriceWidth::automatic);
 }

@@ -378,7 +378,7 @@ TEST(Anneal, SeveralChannelsAndResiduals) {
   options.proposals = 10'000'000;
   auto result = anneal_retarget(problem, options);
   expect_true(problem, result);
-  EXPECT_LT(result.tile.energy, result.tile.start_energy / 3);
+  EXPECT_LT(result.tile.energy, result.tile.start_energy / 2);
 
   problem.channels.pop_back();
   problem.retarget.metric = Metric::l2;
@@ -387,6 +387,37 @@ TEST(Anneal, SeveralChannelsAndResiduals) {
   result = anneal_retarget(problem, options);
   expect_true(problem, result);
   EXPECT_LT(result.tile.energy, result.tile.start_energy / 20);
+}
+
+TEST(Anneal, BetweenTwoMasksComesNearTheOptimum) {
+  const auto from = random_levels({24, 24}, 31, 256), to = random_levels({24, 24}, 32, 256);
+  for (const double sigma : {0.0, 1.5}) {
+    AnnealProblem problem;
+    problem.channels = {{.levels = from, .to = to}};
+    problem.retarget = {.motion = {1, -2}, .radius = 5, .metric = sigma > 0.0 ? Metric::l2 : Metric::l1};
+    problem.residual_sigma_px = sigma;
+    const AnnealResult result = anneal_retarget(problem, {.proposals = 2'000'000, .seed = 3});
+    EXPECT_EQ(result.tile.energy, anneal_energy(problem, result.tile.move));
+    EXPECT_LT(result.tile.energy, result.tile.start_energy / 3);
+    EXPECT_NO_THROW(check_permutation(result.tile.move, problem.retarget));
+    if (sigma > 0.0) continue;
+    EXPECT_EQ(result.tile.energy, retarget_energy({from, to}, result.tile.move, problem.retarget));
+    EXPECT_LT(static_cast<double>(result.tile.energy),
+              1.10 * static_cast<double>(solve_retarget({from, to}, problem.retarget).energy));
+  }
+}
+
+TEST(Anneal, TheSecondMaskBelongsToTheCheckpoint) {
+  const auto from = random_levels({16, 16}, 33, 256), to = random_levels({16, 16}, 34, 256);
+  AnnealProblem problem;
+  problem.channels = {{.levels = from, .to = to}};
+  problem.retarget.radius = 4;
+  AnnealOptions options{.proposals = 100'000, .seed = 1};
+  const std::string checkpoint = Annealing(problem, options).checkpoint();
+  options.checkpoint.resume = checkpoint;
+  EXPECT_NO_THROW(Annealing(problem, options));
+  problem.channels[0].to = from;
+  EXPECT_THROW(Annealing(problem, options), Error);
 }
 
 TEST(Anneal, TinyTilesEnd) {

@@ -25,10 +25,11 @@ inline Grid<std::int32_t> random_levels(Extent size, std::uint64_t seed, std::in
 }
 
 /// matrix[u][v]: the cost of u -> v, or kForbidden where no allowed offset leads there.
-inline std::vector<std::vector<std::int64_t>> cost_matrix(const Grid<std::int32_t>& levels,
+inline std::vector<std::vector<std::int64_t>> cost_matrix(const MaskLevels& levels,
                                                           const RetargetOptions& options) {
-  const int width = levels.width(), height = levels.height(), r = options.radius;
-  std::vector matrix(levels.count(), std::vector<std::int64_t>(levels.count(), kForbidden));
+  const int width = levels.size().width, height = levels.size().height, r = options.radius;
+  const std::size_t count = levels.from.count();
+  std::vector matrix(count, std::vector<std::int64_t>(count, kForbidden));
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       for (int k_y = -r; k_y <= r; ++k_y) {
@@ -41,7 +42,7 @@ inline std::vector<std::vector<std::int64_t>> cost_matrix(const Grid<std::int32_
           const int v_x = wrap(x + k_x + options.motion.x, width),
                     v_y = wrap(y + k_y + options.motion.y, height);
           const std::int64_t difference =
-              std::int64_t{levels(x, y)} - levels.torus(v_x + options.step.x, v_y + options.step.y);
+              std::int64_t{levels.from(x, y)} - levels.to.torus(v_x + options.step.x, v_y + options.step.y);
           matrix[static_cast<std::size_t>(y * width + x)][static_cast<std::size_t>(v_y * width + v_x)] =
               options.metric == Metric::l2 ? difference * difference : std::abs(difference);
         }

@@ -4,17 +4,18 @@
 
 #include <ostream>
 
+#include "bn/error.h"
 #include "bn/random.h"
 #include "reference.h"
 
 namespace bn {
 namespace {
 
-void expect_optimum(const Grid<std::int32_t>& levels, const RetargetOptions& options, std::int64_t optimum) {
+void expect_optimum(const MaskLevels& levels, const RetargetOptions& options, std::int64_t optimum) {
   const RetargetTile tile = solve_retarget(levels, options, {.threads = 1});
-  SCOPED_TRACE(testing::Message() << levels.width() << "x" << levels.height() << " step " << options.step.x
-                                  << "," << options.step.y << " motion " << options.motion.x << ","
-                                  << options.motion.y << " radius " << options.radius << " euclidean "
+  SCOPED_TRACE(testing::Message() << levels.size().width << "x" << levels.size().height << " step "
+                                  << options.step.x << "," << options.step.y << " motion " << options.motion.x
+                                  << "," << options.motion.y << " radius " << options.radius << " euclidean "
                                   << (options.reach == Reach::euclidean) << " l2 "
                                   << (options.metric == Metric::l2) << " wrap " << options.wrap);
   EXPECT_EQ(tile.energy, optimum);
@@ -72,6 +73,40 @@ TEST(SmallTiles, HungarianMethodOnSmallTiles) {
       });
     }
   }
+}
+
+// The next frame's mask need not be this frame's, moved.
+TEST(SmallTiles, BetweenTwoMasks) {
+  std::uint64_t seed = 200;
+  for (const Extent size : {Extent{2, 3}, Extent{3, 3}, Extent{5, 7}, Extent{8, 8}, Extent{17, 9}}) {
+    for (const std::int32_t bound : {2, 256, 65536}) {
+      const auto from = random_levels(size, ++seed, bound), to = random_levels(size, ++seed, bound / 2 + 1);
+      for_all_options(seed, {1, 2, 6}, [&](const RetargetOptions& options) {
+        expect_optimum({from, to}, options, hungarian_optimum(cost_matrix({from, to}, options)));
+      });
+    }
+  }
+}
+
+TEST(SmallTiles, AMovedMaskIsTheSecondOfAPair) {
+  const auto mask = random_levels({12, 9}, 300, 256);
+  for_all_options(301, {2, 6}, [&](const RetargetOptions& options) {
+    if (!options.wrap) return;  // the border lies where the seeds land, which the step moves
+    Grid<std::int32_t> moved(mask.size());
+    for (int y = 0; y < mask.height(); ++y) {
+      for (int x = 0; x < mask.width(); ++x) moved(x, y) = mask.torus(x + options.step.x, y + options.step.y);
+    }
+    RetargetOptions still = options;
+    still.step = {0, 0};
+    EXPECT_EQ(solve_retarget({mask, moved}, still).energy, solve_retarget(mask, options).energy);
+  });
+}
+
+TEST(SmallTiles, MasksOfTwoSizesAreRefused) {
+  const auto from = random_levels({8, 8}, 1, 256), to = random_levels({8, 4}, 2, 256);
+  EXPECT_THROW(solve_retarget({from, to}, {}), Error);
+  EXPECT_THROW(solve_motion_set({from, to}, {}, 1), Error);
+  EXPECT_THROW(retarget_energy({from, to}, Grid<Offset>({8, 8}), {}), Error);
 }
 
 }  // namespace

@@ -28,9 +28,23 @@ enum class Reach {
   euclidean,  ///< x^2 + y^2 <= radius^2
 };
 
-/// The retarget problem for one motion. In tile space, with D the levels, d the step, m the motion:
-/// find the bijection u -> u + R(u) of the torus that minimises
-///     E = sum over u of cost(D(u), D(u + R(u) + d))   with R(u) - m within reach.
+/// The grey levels that seeds are sorted by: in this frame those of `from`, in the next those of `to`.
+/// With one grid both frames use the same mask, which the step moves. Both have one size, and each level is
+/// 0..2^24-1, as the user's renderer reads them. Refers to the grids, which must outlive it.
+struct MaskLevels {
+  const Grid<std::int32_t>& from;
+  const Grid<std::int32_t>& to;
+
+  MaskLevels(const Grid<std::int32_t>& both) : from(both), to(both) {}  // NOLINT: implicit on purpose
+  MaskLevels(const Grid<std::int32_t>& from_levels, const Grid<std::int32_t>& to_levels)
+      : from(from_levels), to(to_levels) {}
+  Extent size() const { return from.size(); }
+};
+
+/// The retarget problem for one motion. In tile space, with D the levels of this frame's mask, T those of
+/// the next one's (T = D for one mask that moves), d the step, m the motion: find the bijection
+/// u -> u + R(u) of the torus that minimises
+///     E = sum over u of cost(D(u), T(u + R(u) + d))   with R(u) - m within reach.
 /// R = m everywhere is the identity, whose energy is the start energy.
 struct RetargetOptions {
   Offset step{0, 0};    ///< d, any integers (taken modulo the tile); (0, 0) makes the identity optimal
@@ -57,24 +71,23 @@ struct RetargetTile {
 };
 
 /// The optimal retarget tile (or one within options.gap of it), with a proven lower bound.
-/// `levels`: the mask's grey levels, each 0..2^24-1, as the user's renderer reads them.
-/// Errors: invalid_input (an option outside its range, levels outside theirs, an empty grid),
+/// Errors: invalid_input (an option outside its range, levels outside theirs, an empty grid, two sizes),
 /// over_limit (memory, or energies that could exceed 2^62), cancelled.
 /// Threads: one, the caller's. Same bytes on every machine and instruction set. Memory: at most 64 bytes for
 /// each pixel of the tile and of a border of `radius` around it. Cost, one core: 64x64 3 ms, 512x512 1 s,
 /// with its proof; docs/retarget.md has the table.
-RetargetTile solve_retarget(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+RetargetTile solve_retarget(const MaskLevels& levels, const RetargetOptions& options,
                             const Execution& execution = {});
 
 /// One tile per motion in -range..range squared, row by row (index (m.y + range) * (2 range + 1) +
 /// m.x + range), solved in parallel; options.motion is ignored. range 0..8; 4 gives the 81 variants.
 /// Each equals solve_retarget()'s for its motion; errors as there. Threads: execution.threads; same bytes
 /// for any number. Memory: a solve_retarget() on each thread, and 8 bytes a pixel for each tile.
-std::vector<RetargetTile> solve_motion_set(const Grid<std::int32_t>& levels, const RetargetOptions& options,
+std::vector<RetargetTile> solve_motion_set(const MaskLevels& levels, const RetargetOptions& options,
                                            int range, const Execution& execution = {});
 
 /// The energy of any permutation under `options`, recomputed from its definition.
-std::int64_t retarget_energy(const Grid<std::int32_t>& levels, const Grid<Offset>& move,
+std::int64_t retarget_energy(const MaskLevels& levels, const Grid<Offset>& move,
                              const RetargetOptions& options);
 
 /// Throws verification_failed, naming the first offending pixel, unless u -> u + move(u) is a

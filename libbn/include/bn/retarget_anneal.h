@@ -22,12 +22,16 @@ namespace bn {
 
 /// One image channel that moves with the seeds.
 struct AnnealChannel {
-  Grid<std::int32_t> levels;  ///< each 0..2^24-1; all channels of one size
+  Grid<std::int32_t> levels;  ///< D_c, each 0..2^24-1; all channels of one size
   int weight = 1;             ///< 1..1000, of this channel in the sum
+  Grid<std::int32_t> to =
+      {};  ///< T_c, the levels of the next frame's mask; empty: `levels`, which the step moves
+
+  MaskLevels masks() const { return to.count() == 0 ? MaskLevels(levels) : MaskLevels(levels, to); }
 };
 
 /// What to minimise over the permutations that bn/retarget.h describes:
-///     E = sum over channels c of weight_c * sum over u of cost(D_c(u), D_c(u + R(u) + d)),
+///     E = sum over channels c of weight_c * sum over u of cost(D_c(u), T_c(u + R(u) + d)),
 /// or, with residual_sigma_px > 0, the energy of what is left of the difference after a blur,
 ///     E = sum over c of weight_c * sum over w of (sum over v of g(w - v) * e_c(v))^2,
 /// e_c(w) the level that arrived at w less the level that belongs there, g a Gaussian with integer weights
@@ -105,9 +109,9 @@ class Annealing {
   std::string checkpoint() const;
   Grid<Offset> move() const;         ///< the placement of the traced chain, now; a pass over the pixels
   Grid<std::int8_t> move_z() const;  ///< its third axis, of a volume; else empty
-  /// The best permutation found so far, looked for at the end of each round. Costs one pass over the pixels. A
-  /// run of one chain whose stop_after is result().proposals ends with the same bytes. Before the end of the
-  /// first round it is the identity.
+  /// The best permutation found so far, looked for at the end of each round. Costs one pass over the pixels.
+  /// A run of one chain whose stop_after is result().proposals ends with the same bytes. Before the end of
+  /// the first round it is the identity.
   AnnealResult result() const;
   /// What the options came to: of the traced chain, over all proposals but the last 64th.
   CoolingSchedule schedule() const;
