@@ -67,9 +67,9 @@ void print_plan(const BakePlan& plan, const Settings& settings, Output& output) 
     text += fmt::format("{:10} {:13} {:20} {:>8.2f} s  {}\n", job.up_to_date ? "up to date" : "to bake",
                         job.kind, job.name, job.estimated_seconds, files_text(job.files));
   }
-  output.write(text + fmt::format("about {} on one core, {:.0f} MiB of memory; nothing was written\n",
-                                  readable_duration(plan.estimated_seconds),
-                                  static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
+  output.tell(text + fmt::format("about {} on one core, {:.0f} MiB of memory; nothing was written\n",
+                                 readable_duration(plan.estimated_seconds),
+                                 static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
 }
 
 void print_result(const BakeResult& result, const Settings& settings, Session& session) {
@@ -92,7 +92,7 @@ void print_result(const BakeResult& result, const Settings& settings, Session& s
                     job.name, job.seconds, files_text(paths), energy.empty() ? "" : "  energy " + energy);
     for (const auto& note : job.notes) session.progress.note(fmt::format("{}: {}", job.name, note));
   }
-  session.output.write(text + fmt::format("{} in {:.2f} s\n", result.manifest.string(), result.seconds));
+  session.output.tell(text + fmt::format("{} in {:.2f} s\n", result.manifest.string(), result.seconds));
 }
 
 void run(const Settings& settings, Session& session) {

@@ -83,6 +83,49 @@ void fail_unknown_option(const std::string& word, const std::vector<const std::v
   fail(fmt::format("there is no option '{}'", name), verb, suggestion(nearest_word(name, names), verb));
 }
 
+/// The second words of the verbs that begin with `group`.
+std::vector<std::string> methods_of(const std::string& group, const std::vector<Verb>& verbs) {
+  std::vector<std::string> methods;
+  for (const auto& verb : verbs) {
+    if (verb.name.starts_with(group + " ")) methods.push_back(verb.name.substr(group.size() + 1));
+  }
+  return methods;
+}
+
+[[noreturn]] void fail_missing_method(const std::string& group, const std::vector<Verb>& verbs) {
+  throw Error({.code = ErrorCode::usage,
+               .what = "the method is missing",
+               .where = group,
+               .limit = fmt::format("{}", fmt::join(methods_of(group, verbs), ", ")),
+               .remedy = fmt::format("write bn {} METHOD and then its options", group)});
+}
+
+[[noreturn]] void fail_unknown_verb(const std::string& word, const std::string& group,
+                                    const std::vector<Verb>& verbs) {
+  if (!group.empty()) {
+    const std::vector<std::string> methods = methods_of(group, verbs);
+    const std::string nearest = nearest_word(word, methods);
+    throw Error(
+        {.code = ErrorCode::usage,
+         .what = fmt::format("there is no method '{}'", word),
+         .where = group,
+         .limit = nearest.empty() ? fmt::format("{}", fmt::join(methods, ", ")) : "",
+         .remedy = suggestion(nearest.empty() ? "" : fmt::format("bn {} {}", group, nearest), group)});
+  }
+  // A method may have been named without its verb, and other programs have a verb for their version.
+  std::vector<std::string> known{"version"}, meant{"bn --version"};
+  for (const auto& verb : verbs) {
+    known.push_back(first_word(verb.name));
+    meant.push_back("bn " + known.back());
+    if (known.back() == verb.name) continue;
+    known.push_back(verb.name.substr(known.back().size() + 1));
+    meant.push_back("bn " + verb.name);
+  }
+  const auto found = std::find(known.begin(), known.end(), nearest_word(word, known));
+  fail(fmt::format("there is no verb '{}'", word), "",
+       suggestion(found == known.end() ? "" : meant[static_cast<std::size_t>(found - known.begin())], ""));
+}
+
 void assign(const Given& given, const std::string& verb) {
   const Argument& argument = *given.argument;
   if (argument.is_switch()) {
@@ -122,9 +165,11 @@ Arguments declare(GlobalOptions& globals) {
                                              {"json", ProgressStyle::json},
                                              {"none", ProgressStyle::none}}),
                    "How progress is shown on stderr; auto is a bar on a terminal and plain lines elsewhere.");
-  arguments.flag("--quiet", globals.quiet, true, "Print results and errors only.", "-q");
+  arguments.flag("--quiet", globals.quiet, true,
+                 "Print errors only, and what was asked for: JSON, info, help. verify names what fails.",
+                 "-q");
   arguments.flag("--help", globals.help, true, "Print this help.", "-h");
-  arguments.flag("--version", globals.version, true, "Print the version.");
+  arguments.flag("--version", globals.version, true, "Print the version.", "-V");
   return arguments;
 }
 
@@ -193,26 +238,16 @@ Invocation parse_command_line(const std::vector<std::string>& words, const std::
 
   auto extras = root.remaining(true);
   std::erase(extras, "--");  // CLI11 hands back the mark after which every word is a positional argument
+  // Options belong to a verb: which one is missing or misspelt comes before what they are.
+  if (chosen == nullptr && !extras.empty() && extras.front().starts_with("-") && !invocation.group.empty())
+    fail_missing_method(invocation.group, verbs);
+  if (chosen == nullptr && !extras.empty() && !extras.front().starts_with("-"))
+    fail_unknown_verb(extras.front(), invocation.group, verbs);
   for (const auto& word : extras) {
     if (word.size() < 2 || word.front() != '-') continue;
     std::vector<const std::vector<Argument>*> lists{&globals.list()};
     if (chosen != nullptr) lists.push_back(&chosen->verb->arguments.list());
     fail_unknown_option(word, lists, name);
-  }
-  if (chosen == nullptr && !extras.empty()) {
-    std::vector<std::string> known;
-    for (const auto& verb : verbs) {
-      const std::string first = first_word(verb.name);
-      if (invocation.group.empty()) {
-        known.push_back(first);
-      } else if (first == invocation.group) {
-        known.push_back(verb.name.substr(first.size() + 1));
-      }
-    }
-    const std::string nearest = nearest_word(extras.front(), known);
-    fail(fmt::format("there is no {} '{}'", invocation.group.empty() ? "verb" : "method", extras.front()),
-         invocation.group,
-         suggestion(nearest.empty() ? "" : "bn " + (name.empty() ? "" : name + " ") + nearest, name));
   }
   if (!extras.empty()) fail(fmt::format("unexpected argument '{}'", extras.front()), name, help_remedy(name));
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "bn/version.h"
 #include "tools/command_line.h"
@@ -24,7 +25,7 @@ std::string names_of(const Arguments& arguments) {
 std::string generator(const Argument& argument) {
   switch (argument.completion) {
     case Completion::file:
-      return "-f";
+      return argument.choices.empty() ? "-f" : fmt::format("-f -W '{}'", fmt::join(argument.choices, " "));
     case Completion::folder:
       return "-d";
     case Completion::choice:
@@ -47,12 +48,24 @@ std::string value_cases(const std::string& verb, const Arguments& arguments) {
   return text;
 }
 
+/// Every word that a verb's name has.
+std::string words_of(const std::vector<Verb>& verbs) {
+  std::set<std::string> words;
+  for (const auto& verb : verbs) {
+    const auto space = verb.name.find(' ');
+    words.insert(verb.name.substr(0, space));
+    if (space != std::string::npos) words.insert(verb.name.substr(space + 1));
+  }
+  return fmt::format("{}", fmt::join(words, " "));
+}
+
 std::string bash_script() {
   GlobalOptions globals;
   const Arguments global_arguments = declare(globals);
   std::map<std::string, std::string> words_after;  // what may follow "" (bn itself) or a group's name
   std::string value_lines, word_lines;
-  for (const auto& verb : all_verbs()) {
+  const std::vector<Verb> verbs = all_verbs();
+  for (const auto& verb : verbs) {
     const auto space = verb.name.find(' ');
     const std::string first = verb.name.substr(0, space);
     auto& words = words_after[""];
@@ -63,6 +76,7 @@ std::string bash_script() {
     for (const auto& argument : verb.arguments.list()) {
       if (argument.is_positional()) positional = generator(argument);
     }
+    if (verb.name == "help") positional = fmt::format("-W '{}'", words_of(verbs));
     word_lines += fmt::format("    '{}') options='{}' generate=({}) ;;\n", verb.name,
                               names_of(verb.arguments) + names_of(global_arguments),
                               positional.empty() ? "-W ''" : positional);
@@ -97,9 +111,9 @@ _bn() {{
 complete -F _bn bn
 )",
                      kVersion,
-                     [] {
+                     [&verbs] {
                        std::string names;
-                       for (const auto& verb : all_verbs()) {
+                       for (const auto& verb : verbs) {
                          const auto space = verb.name.find(' ');
                          if (space != std::string::npos) names += "'" + verb.name.substr(0, space) + "'|";
                          names += "'" + verb.name + "'|";

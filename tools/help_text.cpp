@@ -79,6 +79,7 @@ std::string arguments_text(std::string_view title, const Arguments& arguments, b
 std::string usage_line(const Verb& verb) {
   std::string text = "bn " + verb.name;
   for (const auto& argument : verb.arguments.list()) {
+    if (!argument.required && argument.is_positional()) text += fmt::format(" [{}...]", argument.name);
     if (!argument.required) continue;
     const std::string& flag = argument.short_name.empty() ? argument.name : argument.short_name;
     text += argument.is_positional() ? " " + argument.name + (argument.repeats ? "..." : "")

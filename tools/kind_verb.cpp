@@ -68,7 +68,7 @@ Verb kind_verb(const Kind& kind) {
   settings->arguments.declare(verb.arguments);
   verb.arguments.option("--count", settings->count, integer_in(1, 1024),
                         "How many to make; the path then has a place for the number, such as %03d.");
-  verb.arguments.required_option("--out", settings->out, file_path(),
+  verb.arguments.required_option("--out", settings->out, texture_path(),
                                  "The file to write; its extension decides the format.", "-o");
   verb.arguments.flag("--json", settings->json, true, "Print the result as JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };

@@ -86,26 +86,25 @@ Error error_in_flight() {
   }
 }
 
-void run(const std::vector<std::string>& words, const StopOnSignal& signals, ProgressDisplay& progress) {
+/// Returns the exit code of a run that does not fail.
+int run(const std::vector<std::string>& words, const StopOnSignal& signals, ProgressDisplay& progress) {
   const std::vector<Verb> verbs = all_verbs();
   GlobalOptions globals;
   const Arguments global_arguments = declare(globals);
   const Invocation invocation = parse_command_line(words, verbs, global_arguments);
 
-  Output output;
-  if (globals.version) return output.write(fmt::format("bn {}\n", kVersion));
-  const bool has_group = !invocation.group.empty();
-  if (globals.help) {
-    return output.write(invocation.verb != nullptr ? verb_help(*invocation.verb, global_arguments)
-                        : has_group                ? group_help(invocation.group, verbs)
-                                                   : overview_help(verbs, global_arguments));
+  Output output(globals.quiet);
+  if (globals.version) {
+    output.write(fmt::format("bn {}\n", kVersion));
+    return 0;
   }
-  if (invocation.verb == nullptr) {
-    throw Error({.code = ErrorCode::usage,
-                 .what = has_group ? "no method is named" : "no verb is named",
-                 .where = invocation.group,
-                 .limit = "",
-                 .remedy = has_group ? fmt::format("see bn {} --help", invocation.group) : "see bn --help"});
+  if (globals.help || invocation.verb == nullptr) {
+    const bool has_group = !invocation.group.empty();
+    output.write(invocation.verb != nullptr ? verb_help(*invocation.verb, global_arguments)
+                 : has_group                ? group_help(invocation.group, verbs)
+                                            : overview_help(verbs, global_arguments));
+    // Without a verb nothing was done, which a script should notice.
+    return globals.help ? 0 : exit_code_of(ErrorCode::usage, 0);
   }
   progress.set_style(globals.quiet ? ProgressStyle::none : globals.progress);
   Session session{.execution = {.threads = globals.threads,
@@ -116,14 +115,14 @@ void run(const std::vector<std::string>& words, const StopOnSignal& signals, Pro
                   .quiet = globals.quiet};
   invocation.verb->run(session);
   progress.finish();
+  return 0;
 }
 
 int guarded_run(const std::vector<std::string>& words) {
   ProgressDisplay progress;
   const StopOnSignal signals([&] { progress.note("stopping; once more to end at once"); });
   try {
-    run(words, signals, progress);
-    return 0;
+    return run(words, signals, progress);
   } catch (...) {
     const Error error = error_in_flight();
     const int exit_code = exit_code_of(error.code(), signals.signal());

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -15,15 +17,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// File names may hold any bytes; JSON may not.
-std::string dump(const Json& value, int indent) {
-  return value.dump(indent, ' ', false, Json::error_handler_t::replace);
-}
+std::string dump(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 std::string scalar_text(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_null()) return "none";
-  return dump(value, -1);
+  return dump(value);
 }
 
 bool is_list_of_scalars(const Json& value) {
@@ -32,6 +32,38 @@ bool is_list_of_scalars(const Json& value) {
     if (item.is_structured()) return false;
   }
   return true;
+}
+
+/// Indented; a list of plain values, such as a size or a curve, stays on one line.
+void print(const Json& value, const std::string& indent, std::string& text) {
+  if (is_list_of_scalars(value)) {
+    text += '[';
+    for (std::size_t i = 0; i < value.size(); ++i) text += (i > 0 ? ", " : "") + dump(value[i]);
+    text += ']';
+    return;
+  }
+  if (!value.is_structured() || value.empty()) {
+    text += dump(value);
+    return;
+  }
+  const std::string inner = indent + "  ";
+  text += value.is_object() ? "{" : "[";
+  bool first = true;
+  for (const auto& [key, item] : value.items()) {
+    text += (first ? "\n" : ",\n") + inner;
+    first = false;
+    if (value.is_object()) text += dump(Json(key)) + ": ";
+    print(item, inner, text);
+  }
+  text += "\n" + indent + (value.is_object() ? "}" : "]");
+}
+
+/// As https://no-color.org asks: set and not empty means no.
+bool wants_colour() {
+  const char* no_colour = std::getenv("NO_COLOR");
+  const char* terminal = std::getenv("TERM");
+  return ::isatty(STDOUT_FILENO) == 1 && (!no_colour || !*no_colour) && terminal &&
+         std::string_view(terminal) != "dumb";
 }
 
 using Lines = std::vector<std::pair<std::string, std::string>>;
@@ -69,15 +101,50 @@ void Output::write(std::string_view text) {
   }
 }
 
+Output::Output(bool quiet) : quiet_(quiet), coloured_(wants_colour()) {}
+
+void Output::tell(std::string_view text) {
+  if (quiet_) return;
+  write(coloured_ ? with_coloured_verdicts(text) : std::string(text));
+}
+
 void Output::write_result(const Json& result, bool as_json) {
-  if (as_json) return write(dump(result, 2) + "\n");
+  if (!as_json) return tell(lines_of(result));
+  std::string text;
+  print(result, "", text);
+  write(text + "\n");
+}
+
+std::string lines_of(const Json& result) {
   Lines lines;
   flatten("", result, lines);
   std::size_t width = 0;
   for (const auto& [name, value] : lines) width = std::max(width, name.size());
   std::string text;
   for (const auto& [name, value] : lines) text += fmt::format("{:{}}  {}\n", name, width, value);
-  write(text);
+  return text;
+}
+
+std::string with_coloured_verdicts(std::string_view text) {
+  constexpr std::string_view kGreen = "\033[32m", kYellow = "\033[33m", kRed = "\033[1;31m", kEnd = "\033[0m";
+  std::string coloured;
+  while (!text.empty()) {
+    const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+    std::size_t end = 0;
+    while (end < text.size() && is_letter(text[end])) ++end;
+    const std::string_view word = text.substr(0, end);
+    const std::string_view ink = word == "pass"   ? kGreen
+                                 : word == "weak" ? kYellow
+                                 : word == "FAIL" ? kRed
+                                                  : "";
+    coloured += ink.empty() ? std::string(word) : fmt::format("{}{}{}", ink, word, kEnd);
+    text.remove_prefix(end);
+    while (!text.empty() && !is_letter(text.front())) {
+      coloured += text.front();
+      text.remove_prefix(1);
+    }
+  }
+  return coloured;
 }
 
 }  // namespace bn::tools

@@ -157,7 +157,7 @@ Verb pack_verb() {
       "pattern.";
   verb.arguments.positional_list("FILE", settings->sources, channel_source(),
                                  "What to pack, in the order of the channels; FILE:N takes one channel.");
-  verb.arguments.required_option("--out", settings->out, file_path(), "The file to write.", "-o");
+  verb.arguments.required_option("--out", settings->out, texture_path(), "The file to write.", "-o");
   verb.arguments.option(
       "--slices", settings->slices,
       choice_of<SliceKind>({{"layers", SliceKind::layers}, {"depth", SliceKind::depth}}),

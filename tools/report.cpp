@@ -42,10 +42,9 @@ void run(const Settings& settings, Session& session) {
     return;
   }
   for (const std::string& note : summary.notes) session.progress.note(note);
-  if (session.quiet) return;
-  session.output.write(fmt::format("{}: {} textures, {} retarget sets, {} volumes; {}\n",
-                                   settings.options.out.string(), summary.masks, summary.retarget_sets,
-                                   summary.volumes, verdict_of(summary)));
+  session.output.tell(fmt::format("{}: {} textures, {} retarget sets, {} volumes; {}\n",
+                                  settings.options.out.string(), summary.masks, summary.retarget_sets,
+                                  summary.volumes, verdict_of(summary)));
 }
 
 }  // namespace

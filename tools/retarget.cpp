@@ -104,7 +104,7 @@ void run(Settings& settings, Session& session) {
                     settings.seconds, proposals, proposals));
   }
   session.output.write_result(result_of(settings, entry, job), settings.json);
-  if (!settings.json && entry.motion > 0) session.output.write(energy_table(job.tiles, entry.motion));
+  if (!settings.json && entry.motion > 0) session.output.tell(energy_table(job.tiles, entry.motion));
 }
 
 /// Flags of version 0.1, which go on working.
@@ -142,7 +142,7 @@ Verb retarget_verb() {
   verb.arguments.in_group("With --method anneal");
   declare_older_names(verb.arguments, *settings);
   verb.arguments.option(
-      "--out", settings->out, file_path(),
+      "--out", settings->out, texture_path(),
       "The file to write, 8 bit; its extension decides the format. Without it only the figures are "
       "printed.",
       "-o");

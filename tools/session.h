@@ -14,7 +14,7 @@ struct Session {
   Execution execution;        ///< threads, stop and memory limit of this run; progress is set per task
   Output& output;             ///< results, to stdout
   ProgressDisplay& progress;  ///< progress and notes, to stderr
-  bool quiet = false;         ///< no tables for people either: files, JSON and errors only
+  bool quiet = false;         ///< nothing for people but errors
 
   /// `execution` with its progress shown as that of `task`.
   Execution execution_showing(std::string_view task);

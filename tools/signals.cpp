@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <initializer_list>
+#include <system_error>
 #include <utility>
 
 namespace bn::tools {
@@ -43,10 +44,17 @@ StopOnSignal::StopOnSignal(std::function<void()> on_stop) : on_stop_(std::move(o
   ::signal(SIGTERM, end_at_once);
   const sigset_t all = set_of({SIGINT, SIGTERM, kWake});
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
-  watcher_ = std::thread([this] { watch(); });
+  try {
+    watcher_ = std::thread([this] { watch(); });
+  } catch (const std::system_error&) {
+    // No thread to be had, as under ulimit -u: signals end the run at once, which leaves whole files behind.
+    const sigset_t stopping = set_of({SIGINT, SIGTERM});
+    ::pthread_sigmask(SIG_UNBLOCK, &stopping, nullptr);
+  }
 }
 
 StopOnSignal::~StopOnSignal() {
+  if (!watcher_.joinable()) return;
   ::pthread_kill(watcher_.native_handle(), kWake);
   watcher_.join();
 }

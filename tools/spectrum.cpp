@@ -150,8 +150,8 @@ void run(const Settings& settings, Session& session) {
 
   if (settings.json) {
     session.output.write_result(to_json(result), true);
-  } else if (!session.quiet) {
-    session.output.write(to_text(result));
+  } else {
+    session.output.tell(to_text(result));
   }
   if (!analyst.one_size() && !(settings.png.empty() && settings.csv.empty())) {
     throw Error({.code = ErrorCode::invalid_input,

@@ -40,7 +40,7 @@ Verb study_fft_verb() {
   verb.run = [json](Session& session) {
     const auto rows = study_fft({64, 256, 1000, 1021, 1024, 4096}, session.execution_showing("transforms"));
     session.progress.finish();
-    if (!*json) return session.output.write(markdown(rows));
+    if (!*json) return session.output.tell(markdown(rows));
     Json result = Json::array();
     for (const auto& row : rows) {
       result.push_back({{"side", row.side},

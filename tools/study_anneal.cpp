@@ -222,7 +222,7 @@ void measure_runs(const Settings& settings, const Subject& subject, Session& ses
   write_text_file(settings.out / "medians.csv", medians_csv(study, summaries, options.schedules));
   const std::string markdown = table(study, summaries, options.schedules);
   write_text_file(settings.out / "table.md", markdown);
-  session.output.write(markdown);
+  session.output.tell(markdown);
 }
 
 void measure_traces(const Settings& settings, const Subject& subject, Session& session) {
@@ -257,7 +257,7 @@ void measure_throughput(const Settings& settings, Session& session) {
   }
   session.progress.finish();
   write_text_file(settings.out / "throughput.csv", text);
-  session.output.write(text);
+  session.output.tell(text);
 }
 
 void measure_costs(const Settings& settings, const Subject& subject, Session& session) {
@@ -272,7 +272,7 @@ void measure_costs(const Settings& settings, const Subject& subject, Session& se
       settings.out / "costs.csv",
       fmt::format("what,share\ntrace,{:.5f}\ntrace_low,{:.5f}\ntrace_high,{:.5f}\ncheckpoints,{:.6f}\n",
                   costs.trace, costs.trace_low, costs.trace_high, costs.checkpoints));
-  session.output.write(fmt::format(
+  session.output.tell(fmt::format(
       "trace {:.2f} % (95 % interval {:.2f}..{:.2f}), checkpoints {:.3f} % ({:.2g} ms and {} bytes each)\n",
       100.0 * costs.trace, 100.0 * costs.trace_low, 100.0 * costs.trace_high, 100.0 * costs.checkpoints,
       1e3 * costs.save_seconds, costs.checkpoint_bytes));
@@ -301,7 +301,7 @@ void measure_motions(const Settings& settings, const Subject& subject, Session& 
     most = std::max(most, tile.energy);
   }
   write_text_file(settings.out / "motions.csv", text);
-  session.output.write(
+  session.output.tell(
       fmt::format("81 motions, {:.0e} proposals each: {}..{}, at worst {:.3f} % of the start, {:.1f} s on {} "
                   "threads\n",
                   static_cast<double>(run.proposals), least, most, 100.0 * worst, seconds,

@@ -3,14 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "bn/error.h"
+#include "bn/options.h"
 #include "bn/report.h"
 #include "bn_study/validation.h"
 #include "tools/verb.h"
 
 namespace bn::tools {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 struct Settings {
   std::string scene;
@@ -22,15 +26,38 @@ struct Settings {
   std::optional<Offset> step;
   bool unsafe = false;
   bool quick = false;
-  std::filesystem::path out;
+  std::filesystem::path out = "validation";
+  bool json = false;
 };
 
-ValueKind<std::string> any_text(std::string placeholder) {
+ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string> suggestions = {}) {
   ValueKind<std::string> kind;
   kind.placeholder = std::move(placeholder);
+  if (!suggestions.empty()) kind.completion = Completion::file;
+  kind.choices = std::move(suggestions);
   kind.parse = [](std::string_view text, std::string_view) { return std::string(text); };
   kind.show = [](const std::string& text) { return text; };
   return kind;
+}
+
+std::vector<std::string> scene_words() {
+  std::vector<std::string> words = shipped_scene_names();
+  words.emplace_back("all");
+  return words;
+}
+
+/// A misspelt name of a scene reads as the name of a file that is not there.
+void check_scene_name(const std::string& scene) {
+  const std::vector<std::string> words = scene_words();
+  std::error_code failed;
+  if (std::find(words.begin(), words.end(), scene) != words.end() || std::filesystem::exists(scene, failed))
+    return;
+  const std::string nearest = nearest_word(scene, words);
+  throw Error({.code = ErrorCode::io,
+               .what = "there is no scene and no file of this name",
+               .where = scene,
+               .limit = fmt::format("{}, or a TOML file", fmt::join(words, ", ")),
+               .remedy = nearest.empty() ? "" : fmt::format("did you mean {}?", nearest)});
 }
 
 /// "all" for an empty list, or some methods: "retarget,reproject".
@@ -62,6 +89,7 @@ ValueKind<std::vector<Method>> method_list() {
 
 void run(Settings& settings, Session& session) {
   StudyOptions& study = settings.study;
+  check_scene_name(settings.scene);
   study.scenes = settings.scene == "all" ? shipped_scene_names() : std::vector<std::string>{settings.scene};
   for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
   if (!settings.methods.empty()) {
@@ -92,7 +120,13 @@ void run(Settings& settings, Session& session) {
   run_study(study, textures, device, settings.out, session.execution_showing("validate"));
   session.progress.finish();
   write_study_report(settings.out, settings.out / "report.html", session.execution);
-  session.output.write(fmt::format("report  {}\n", (settings.out / "report.html").string()));
+  Json result{{"out", settings.out.string()}, {"report", (settings.out / "report.html").string()}};
+  for (const char* table : {"summary.csv", "errors.csv", "radial.csv", "passes.csv"})
+    result["tables"].push_back((settings.out / table).string());
+  result["scenes"] = study.scenes;
+  for (const Method method : study.methods) result["methods"].push_back(name_of(method));
+  if (settings.json) return session.output.write_result(result, true);
+  session.output.tell(fmt::format("report  {}\n", result["report"].get<std::string>()));
 }
 
 }  // namespace
@@ -120,7 +154,7 @@ Verb validate_verb() {
       "or cpu "
       "for the plain renderer without Vulkan.";
   verb.arguments.positional(
-      "SCENE", settings->scene, any_text("SCENE"),
+      "SCENE", settings->scene, any_text("SCENE", scene_words()),
       fmt::format("{}, all of them by all, or a TOML file.", fmt::join(shipped_scene_names(), ", ")));
   verb.arguments.option(
       "--method", settings->methods, method_list(),
@@ -133,7 +167,8 @@ Verb validate_verb() {
                         "Folder with a stack of masks, an image a slice in name order: the method slices.");
   verb.arguments.option("--step", settings->step, offset_or_auto(),
                         "The dither step; must be the one the tiles were baked for, which auto takes.");
-  verb.arguments.flag("--unsafe", settings->unsafe, true, "Do not check that the step is that of the tiles, for experiments.");
+  verb.arguments.flag("--unsafe", settings->unsafe, true,
+                      "Do not check that the step is that of the tiles, for experiments.");
   verb.arguments.option("--device", settings->device, any_text("NAME"),
                         "lavapipe, gpu, cpu, or a device's name.");
   verb.arguments.option("--size", study.screen, extent_in(8, 4096), "The screen.");
@@ -147,7 +182,8 @@ Verb validate_verb() {
                       "Sort by the light alone, without the surface's colour; ignores texture edges.");
   verb.arguments.option("--seed", study.seed, seed_value(), "Chooses the random numbers.");
   verb.arguments.flag("--quick", settings->quick, true, "192x128 pixels, 8 frames, 128 reference paths.");
-  verb.arguments.required_option("--out", settings->out, folder_path(), "Where the report goes.", "-o");
+  verb.arguments.option("--out", settings->out, folder_path(), "Where the report goes.", "-o");
+  verb.arguments.flag("--json", settings->json, true, "Print where everything is as JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;
 }

@@ -9,6 +9,7 @@
 
 #include "bn/error.h"
 #include "bn/options.h"
+#include "bn/texture.h"
 
 namespace bn::tools {
 namespace {
@@ -48,6 +49,14 @@ std::optional<std::pair<std::string_view, std::string_view>> halves(std::string_
   const auto at = text.find(separator);
   if (at == std::string_view::npos) return std::nullopt;
   return std::pair(text.substr(0, at), text.substr(at + 1));
+}
+
+Offset offset_from(std::string_view text, std::string_view where, std::string_view allowed) {
+  const auto parts = halves(text, ',');
+  const auto x = parts ? whole_number<int>(parts->first) : std::nullopt;
+  const auto y = parts ? whole_number<int>(parts->second) : std::nullopt;
+  if (!x || !y) fail(text, where, "is no step", allowed, "write it like 48,36");
+  return {*x, *y};
 }
 
 ValueKind<std::filesystem::path> path(std::string placeholder, Completion completion) {
@@ -166,18 +175,21 @@ ValueKind<Extent> extent_in(int low, int high) {
           .show = [](const Extent& value) { return fmt::format("{}x{}", value.width, value.height); }};
 }
 
+ValueKind<std::optional<Offset>> offset() {
+  return {.placeholder = "X,Y",
+          .allowed = "two whole numbers",
+          .parse = [](std::string_view text, std::string_view where) -> std::optional<Offset> {
+            return offset_from(text, where, "two whole numbers");
+          },
+          .show = {}};
+}
+
 ValueKind<std::optional<Offset>> offset_or_auto() {
   return {.placeholder = "X,Y|auto",
           .allowed = "two whole numbers, or auto",
           .parse = [](std::string_view text, std::string_view where) -> std::optional<Offset> {
             if (text == "auto") return std::nullopt;
-            const auto parts = halves(text, ',');
-            const auto x = parts ? whole_number<int>(parts->first) : std::nullopt;
-            const auto y = parts ? whole_number<int>(parts->second) : std::nullopt;
-            if (!x || !y) {
-              fail(text, where, "is no step", "two whole numbers, or auto", "write it like 48,36");
-            }
-            return Offset{*x, *y};
+            return offset_from(text, where, "two whole numbers, or auto");
           },
           .show =
               [](const std::optional<Offset>& value) {
@@ -215,6 +227,19 @@ ValueKind<std::uint64_t> memory_size() {
 }
 
 ValueKind<std::filesystem::path> file_path() { return path("FILE", Completion::file); }
+ValueKind<std::filesystem::path> texture_path() {
+  ValueKind<std::filesystem::path> kind = file_path();
+  kind.parse = [parse = kind.parse](std::string_view text, std::string_view where) {
+    std::filesystem::path path = parse(text, where);
+    try {
+      check_extension(path);
+    } catch (const Error& error) {
+      fail(text, where, fmt::format("has an {}", error.info().what), error.info().limit);
+    }
+    return path;
+  };
+  return kind;
+}
 ValueKind<std::filesystem::path> folder_path() { return path("DIR", Completion::folder); }
 
 void fail_choice(std::string_view text, std::string_view where, const std::vector<std::string>& words) {

@@ -44,9 +44,13 @@ ValueKind<double> percentage_in(double low_percent, double high_percent);
 ValueKind<Extent> extent_in(int low, int high);
 /// "48,36", or "auto" for an empty optional.
 ValueKind<std::optional<Offset>> offset_or_auto();
+/// "48,36".
+ValueKind<std::optional<Offset>> offset();
 /// "8G": bytes with one of the binary units K, M, G, T.
 ValueKind<std::uint64_t> memory_size();
 ValueKind<std::filesystem::path> file_path();
+/// A texture to be written: its extension must name a format.
+ValueKind<std::filesystem::path> texture_path();
 ValueKind<std::filesystem::path> folder_path();
 
 /// Throws usage: `text` is none of `words`; names the nearest if one is near.

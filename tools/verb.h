@@ -46,13 +46,18 @@ class Arguments {
   /// One or more arguments without a name; the last positional ones.
   template <class T>
   void positional_list(std::string name, std::vector<T>& target, const ValueKind<T>& kind, std::string help) {
+    optional_list(std::move(name), target, kind, std::move(help));
+    list_.back().required = true;
+  }
+  /// As positional_list(), but there may be none.
+  template <class T>
+  void optional_list(std::string name, std::vector<T>& target, const ValueKind<T>& kind, std::string help) {
     list_.push_back({.name = name,
                      .short_name = "",
                      .placeholder = name,
                      .help = std::move(help),
                      .allowed = kind.allowed,
                      .initial = "",
-                     .required = true,
                      .repeats = true,
                      .completion = kind.completion,
                      .choices = kind.choices,

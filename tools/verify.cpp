@@ -1,4 +1,4 @@
-// bn verify: every figure that files claim, recomputed.
+// bn verify: every figure that files claim, recomputed; and retarget tiles of other programs measured.
 
 #include <fmt/format.h>
 
@@ -9,25 +9,162 @@
 #include "tools/verb.h"
 
 namespace bn::tools {
+namespace {
+
+struct Settings {
+  std::filesystem::path path;
+  ForeignTile foreign;
+  std::optional<Offset> step, motion;
+  bool json = false;
+};
+
+/// "plus128": what was added to a move before it was stored.
+ValueKind<int> encoding() {
+  const std::string allowed = "plus0..plus65535";
+  return {.placeholder = "plusN",
+          .allowed = allowed,
+          .parse =
+              [=](std::string_view text, std::string_view where) {
+                constexpr std::string_view kPlus = "plus";
+                if (!text.starts_with(kPlus) || text == kPlus) {
+                  throw Error({.code = ErrorCode::usage,
+                               .what = fmt::format("'{}' is no encoding of moves", text),
+                               .where = std::string(where),
+                               .limit = allowed,
+                               .remedy = "write plus6 where a move of -6 is stored as 0"});
+                }
+                return integer_in(0, 65535).parse(text.substr(kPlus.size()), where);
+              },
+          .show = [](const int& value) { return fmt::format("plus{}", value); }};
+}
+
+std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
+  if (settings.foreign.mask.empty()) {
+    if (settings.step) {
+      throw Error({.code = ErrorCode::usage,
+                   .what = "does not apply",
+                   .where = "--step",
+                   .limit = "only with --mask",
+                   .remedy = "name the mask of a tile that another program made"});
+    }
+    return verify_path(settings.path, session.execution_showing("verify"));
+  }
+  settings.foreign.tile = settings.path;
+  if (!settings.step && settings.foreign.to.empty()) {
+    throw Error({.code = ErrorCode::usage,
+                 .what = "is missing",
+                 .where = "--step",
+                 .limit = "two whole numbers",
+                 .remedy = "say how far the mask moves from frame to frame, as 48,36"});
+  }
+  settings.foreign.step = settings.step.value_or(Offset{});
+  settings.foreign.motion = settings.motion.value_or(Offset{});
+  return verify_tile(settings.foreign, session.execution_showing("verify"));
+}
+
+void print(const std::vector<VerifyItem>& items, std::int64_t failed, const Settings& settings,
+           Session& session) {
+  if (settings.json) {
+    Json result{{"path", settings.path.string()},
+                {"pass", failed == 0},
+                {"checked", items.size()},
+                {"failed", failed},
+                {"items", Json::array()}};
+    for (const auto& item : items) result["items"].push_back(to_json(item));
+    return session.output.write_result(result, true);
+  }
+  std::string text;
+  for (const auto& item : items) {
+    if (session.quiet && item.pass) continue;
+    text += fmt::format("{}  {}: {}{}{}\n", item.pass ? "pass" : "FAIL", item.file.string(), item.check,
+                        item.detail.empty() ? "" : ": ", item.detail);
+  }
+  if (session.quiet) return session.output.write(text);
+  session.output.tell(text + fmt::format("{} of {} checks passed\n",
+                                         static_cast<std::int64_t>(items.size()) - failed, items.size()));
+}
+
+/// Files of others are a question that this verb does not answer, which is no failed verification.
+void throw_if_failed(const std::vector<VerifyItem>& items, std::int64_t failed, const Settings& settings) {
+  if (failed == 0) return;
+  const auto count = [&](auto property) { return std::count_if(items.begin(), items.end(), property); };
+  const auto foreign = count([](const auto& item) { return item.check == "foreign"; });
+  if (foreign == static_cast<std::int64_t>(items.size())) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "nothing here was written by bn, so it claims nothing to verify",
+                 .where = settings.path.string(),
+                 .limit = "",
+                 .remedy =
+                     "bn spectrum --check judges masks of others, bn verify TILE --mask MASK --step X,Y "
+                     "their retarget tiles"});
+  }
+  throw Error({.code = ErrorCode::verification_failed,
+               .what = fmt::format("{} of {} checks failed", failed, items.size()),
+               .where = settings.path.string(),
+               .limit = "",
+               .remedy = !settings.foreign.mask.empty() ? ""
+                         : foreign == failed            ? "take the files of others out of the folder"
+                                                        : "bake what failed again"});
+}
+
+void declare_foreign(Arguments& arguments, Settings& settings) {
+  constexpr const char* kGroup = "For a retarget tile of another program";
+  ForeignTile& tile = settings.foreign;
+  const auto group = [&] { arguments.in_group(kGroup); };
+  arguments.option("--mask", tile.mask, file_path(),
+                   "The mask that the tile is for: measure the tile on it.");
+  group();
+  arguments.option("--to", tile.to, file_path(),
+                   "The mask of the next frame, where it is not --mask moved by the step.");
+  group();
+  arguments.option("--channel", tile.channel, integer_in(0, 63), "The channel of the mask, 0 for red.");
+  group();
+  arguments.option("--step", settings.step, offset(), "How far the mask moves from frame to frame.");
+  group();
+  arguments.option("--motion", settings.motion, offset(), "The motion that the tile is for.");
+  group();
+  arguments.option("--encoding", tile.zero_level, encoding(),
+                   "What was added to a move before it was stored.");
+  group();
+  arguments.option("--form", tile.form,
+                   choice_of<MoveForm>({{"scatter", MoveForm::scatter}, {"gather", MoveForm::gather}}),
+                   "What a pixel says: where its seed goes, or where its seed comes from.");
+  group();
+  arguments.option("--metric", tile.metric, choice_of<Metric>({{"l1", Metric::l1}, {"l2", Metric::l2}}),
+                   "Cost of a difference of levels: its size or its square.");
+  group();
+  arguments.option("--reach", tile.reach,
+                   choice_of<Reach>({{"chebyshev", Reach::chebyshev}, {"euclidean", Reach::euclidean}}),
+                   "How the length of a move is measured.");
+  group();
+  arguments.option("--radius", tile.radius, integer_in(0, 32),
+                   "What no move may pass; 0: the farthest move that the tile has.");
+  group();
+}
+
+}  // namespace
 
 Verb verify_verb() {
-  struct Settings {
-    std::filesystem::path path;
-    bool json = false;
-  };
   const auto settings = std::make_shared<Settings>();
   Verb verb;
   verb.name = "verify";
   verb.summary = "Recompute every figure a file or a folder of files claims.";
   verb.examples = {{"bn verify out", "every texture of a bake, and its manifest"},
                    {"bn verify tile.png", "one file: bijection, radius, energy, bound, hash"},
-                   {"bn verify out --json", "the verdicts for a program"}};
+                   {"bn verify out --json", "the verdicts for a program"},
+                   {"bn verify theirs.png --mask mask.png --step 48,36 --encoding plus6",
+                    "a retarget tile of another program: its energy and the optimum"}};
   verb.details =
       "Bakes each mask and solves each retarget tile again, from the recipe and the source that the file "
       "names, and "
-      "compares pixels, bijection, radius, energy, proven bound and hash. One line an item, pass or FAIL. "
-      "Takes "
-      "about as long as the bake. Exit code 5 if an item fails.";
+      "compares pixels, bijection, radius, energy, proven bound and hash. One line an item, pass or FAIL; "
+      "with -q "
+      "only what fails. Takes about as long as the bake. Exit code 5 if an item fails, 3 if nothing there "
+      "was "
+      "written by bn.\n\n"
+      "With --mask the file is a retarget tile that another program made: whether it is a bijection, how far "
+      "it "
+      "moves, its energy, and how far that is above the proven optimum.";
   verb.arguments.positional("PATH", settings->path,
                             {.placeholder = "",
                              .allowed = "",
@@ -36,35 +173,14 @@ Verb verify_verb() {
                              .completion = Completion::file},
                             "A file, or a folder with everything below it.");
   verb.arguments.flag("--json", settings->json, true, "Print the verdicts as JSON.");
+  declare_foreign(verb.arguments, *settings);
   verb.run = [settings](Session& session) {
-    const auto items = verify_path(settings->path, session.execution_showing("verify"));
+    const auto items = items_of(*settings, session);
     session.progress.finish();
     const auto failed =
         std::count_if(items.begin(), items.end(), [](const auto& item) { return !item.pass; });
-    if (settings->json) {
-      Json result{{"path", settings->path.string()},
-                  {"pass", failed == 0},
-                  {"checked", items.size()},
-                  {"failed", failed},
-                  {"items", Json::array()}};
-      for (const auto& item : items) result["items"].push_back(to_json(item));
-      session.output.write_result(result, true);
-    } else {
-      std::string text;
-      for (const auto& item : items) {
-        text += fmt::format("{}  {}: {}{}{}\n", item.pass ? "pass" : "FAIL", item.file.string(), item.check,
-                            item.detail.empty() ? "" : ": ", item.detail);
-      }
-      text += fmt::format("{} of {} checks passed\n", items.size() - failed, items.size());
-      session.output.write(text);
-    }
-    if (failed > 0) {
-      throw Error({.code = ErrorCode::verification_failed,
-                   .what = fmt::format("{} of {} checks failed", failed, items.size()),
-                   .where = settings->path.string(),
-                   .limit = "",
-                   .remedy = "bake the file again"});
-    }
+    print(items, failed, *settings, session);
+    throw_if_failed(items, failed, *settings);
   };
   return verb;
 }

@@ -212,9 +212,18 @@ class RecipeParser {
         break;
       }
     }
+    if (!path.empty()) check_format(reader, path);
     entry.default_output(index);
     Options options = entry.output_options(index);
     read_options(reader, options);
+  }
+
+  void check_format(TableReader& reader, const std::string& path) {
+    try {
+      check_extension(path);
+    } catch (const Error& error) {
+      reader.mistake("path", fmt::format("'{}' has an {}", path, error.info().what), error.info().limit);
+    }
   }
 
   /// `count` entries of one table: names and paths with a number, seeds one after the other.
@@ -333,6 +342,14 @@ Recipe read_recipe(const std::filesystem::path& path) {
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.bad()) throw io_error("cannot be read");
   text.resize(static_cast<std::size_t>(file.gcount()));
+  // A picture would give a complaint a line.
+  if (text.find('\0') != std::string::npos) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "is no text",
+                 .where = path.string(),
+                 .limit = "a recipe, which is a TOML file",
+                 .remedy = "bn info says what a texture is"});
+  }
   return parse_recipe(text, path.string(), path.parent_path());
 }
 

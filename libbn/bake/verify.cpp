@@ -33,10 +33,11 @@ class FileVerifier : public Checks {
     if (!readable) return;
     if (!content.metadata) {
       const bool damaged = !content.metadata_fault.empty();
-      add("metadata", false,
-          damaged ? "broken: " + content.metadata_fault
-                  : "none of this toolkit's; only files that it wrote can be verified. bn spectrum --check "
-                    "judges others");
+      if (damaged) {
+        add("metadata", false, "broken: " + content.metadata_fault);
+      } else {
+        add("foreign", false, "no metadata of this toolkit");
+      }
       return;
     }
     const Metadata& metadata = *content.metadata;
@@ -148,7 +149,14 @@ std::vector<VerifyItem> verify_path(const fs::path& path, const Execution& execu
   }
   std::vector<VerifyItem> items;
   if (!fs::is_directory(path)) {
-    FileVerifier(path, execution, items).verify();
+    if (is_ours_by_name(path)) {
+      FileVerifier(path, execution, items).verify();
+    } else {
+      items.push_back({.file = path,
+                       .check = "foreign",
+                       .pass = false,
+                       .detail = "not one of the formats that this toolkit writes"});
+    }
     return items;
   }
   std::vector<fs::path> files, manifests;
@@ -168,8 +176,7 @@ std::vector<VerifyItem> verify_path(const fs::path& path, const Execution& execu
   std::sort(files.begin(), files.end());
   std::sort(manifests.begin(), manifests.end());
   if (files.empty() && manifests.empty()) {
-    items.push_back(
-        {.file = path, .check = "metadata", .pass = false, .detail = "no texture in this folder"});
+    items.push_back({.file = path, .check = "foreign", .pass = false, .detail = "no texture in this folder"});
   }
   Execution each = execution;
   for (std::size_t i = 0; i < files.size(); ++i) {

@@ -8,13 +8,14 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <map>
-#ifdef __SANITIZE_THREAD__
 #include <atomic>
-#include <exception>
+#include <map>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
+#ifdef __SANITIZE_THREAD__
+#include <exception>
 #endif
 
 #include "bn/error.h"
@@ -24,6 +25,22 @@ namespace {
 
 constexpr int kMaxThreads = 1024;
 constexpr int kMostOversubscribed = 8;
+
+/// How many of `wanted` threads can run at once, this one among them: a limit on processes (ulimit -u) or on
+/// address space (ulimit -v) may allow fewer. TBB starts its workers where no failure can be handled, so
+/// threads are tried out before. 15 us each.
+int threads_to_be_had(int wanted) {
+  std::atomic<bool> done = false;
+  std::vector<std::jthread> others;
+  try {
+    while (static_cast<int>(others.size()) + 1 < wanted) others.emplace_back([&done] { done.wait(false); });
+  } catch (const std::system_error&) {  // as many as there are
+  } catch (const std::bad_alloc&) {
+  }
+  done = true;
+  done.notify_all();
+  return static_cast<int>(others.size()) + 1;
+}
 
 /// This thread's arena of exactly `threads` slots. Kept from call to call, since making one costs more
 /// than many a loop; one for each calling thread, so that nested loops never wait for each other's slots.
@@ -100,7 +117,12 @@ void parallel_for(const Execution& execution, std::int64_t count,
   // The process-wide limit lets the tests run more threads than the machine has cores, to show that
   // the number changes nothing. It is no higher than that: TBB may start a worker for every arena
   // that was ever made. An arena that asks for more makes TBB print a warning.
-  static const int most = std::max(tbb::info::default_concurrency(), kMostOversubscribed);
+  static const int most =
+      threads_to_be_had(std::max(tbb::info::default_concurrency(), kMostOversubscribed));
+  if (most == 1) {
+    for (std::int64_t i = 0; i < count; ++i) body(i);
+    return;
+  }
   static const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                          static_cast<std::size_t>(most));
   tbb::task_arena& arena = arena_of(std::min(threads, most));

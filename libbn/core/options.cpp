@@ -177,7 +177,19 @@ int edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_word(std::string_view text, const std::vector<std::string>& words) {
   if (text.size() > 40) return "";
+  // The beginning of one word only is that word, and so is what goes on after a whole one: --output is --out.
   std::string nearest;
+  constexpr std::size_t kFewestLetters = 3;
+  int related = 0;
+  for (const std::string& word : words) {
+    const std::size_t shared = std::min(text.size(), word.size());
+    const std::size_t letters = shared - std::min(shared, word.find_first_not_of('-'));
+    if (letters < kFewestLetters || text.substr(0, shared) != word.substr(0, shared)) continue;
+    ++related;
+    nearest = word;
+  }
+  if (related == 1) return nearest;
+  nearest.clear();
   // A third of the letters may be wrong; beyond that a suggestion is a guess.
   int least = std::max(1, static_cast<int>(text.size()) / 3) + 1;
   for (const std::string& word : words) {

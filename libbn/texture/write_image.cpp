@@ -82,18 +82,20 @@ std::string others(Holds holds) {
   return "write one of " + names;
 }
 
+/// The format that the extension names, or an error if there is none.
+const Format& format_of(const std::filesystem::path& path) {
+  if (const Format* const found = find_format(path)) return *found;
+  std::string extensions;
+  for (const Format& format : kFormats) {
+    extensions += fmt::format("{}.{}", extensions.empty() ? "" : ", ", format.extension);
+  }
+  fail_input(path.string(), fmt::format("unknown extension '.{}'", extension_of(path)), extensions);
+}
+
 /// The format that the extension names, or an error if it cannot hold such samples.
 const Format& format_for(const std::filesystem::path& path, SampleType type, int channels, int depth) {
   const std::string where = path.string();
-  const Format* const found = find_format(path);
-  if (found == nullptr) {
-    std::string extensions;
-    for (const Format& format : kFormats) {
-      extensions += fmt::format("{}.{}", extensions.empty() ? "" : ", ", format.extension);
-    }
-    fail_input(where, fmt::format("unknown extension '.{}'", extension_of(path)), extensions);
-  }
-  const Format& format = *found;
+  const Format& format = format_of(path);
   const auto cannot = [&](std::string what, std::string limit, std::string remedy) {
     fail_input(where, fmt::format(".{} cannot hold {}", format.extension, what), std::move(limit),
                std::move(remedy));
@@ -182,6 +184,8 @@ void write_dds(const std::filesystem::path& path, const Bytes& bytes, const Meta
 
 }  // namespace
 }  // namespace texture
+
+void check_extension(const std::filesystem::path& path) { texture::format_of(path); }
 
 void check_writable(const std::filesystem::path& path, SampleType type, int channels, int depth) {
   texture::format_for(path, type, channels, depth);

@@ -180,7 +180,8 @@ JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile,
 
 // --- verify --------------------------------------------------------------------------------------
 
-/// One claim of a file and whether it held. The checks: "metadata" (there, and complete), "hash"
+/// One claim of a file and whether it held. The checks: "metadata" (there, and complete), "foreign" (never
+/// passes: nothing there says that this toolkit wrote it), "hash"
 /// (pixels as recorded), "recipe" (parses and agrees with the recorded figures), "pixels" (a mask:
 /// made again, equal), "source" (there, with the recorded hash), "bijection", "radius", "energy",
 /// "bound", "manifest" (file listed in a manifest is there, with the same hash).
@@ -197,5 +198,25 @@ struct VerifyItem {
 /// A file that cannot be read, or has no metadata of ours, is a failed item, not an exception.
 /// Errors: io (path missing), cancelled, over_limit.
 std::vector<VerifyItem> verify_path(const std::filesystem::path& path, const Execution& execution = {});
+
+/// A retarget tile that another program made, and what is known of it.
+struct ForeignTile {
+  std::filesystem::path tile;  ///< red is x, green is y; 8bit or 16bit
+  std::filesystem::path mask;
+  std::filesystem::path to = {};  ///< the mask of the next frame; empty: `mask`, moved by the step
+  int channel = 0;                ///< of both masks
+  Offset step = {};
+  Offset motion = {};
+  int zero_level = 128;  ///< the sample that means no move: 128 as this toolkit stores moves, or a radius
+  MoveForm form = MoveForm::scatter;
+  Metric metric = Metric::l1;
+  Reach reach = Reach::chebyshev;
+  int radius = 0;  ///< what no move may pass; 0: the tile's own farthest move
+};
+
+/// Checks such a tile: "bijection" (of the torus), "radius", "energy" (recomputed, with the identity's) and
+/// "bound" (the proven optimum of that radius, and how far above it the tile is; it always passes). Errors:
+/// those of read_image(); invalid_input (mask and tile of different sizes, a radius that is out of range).
+std::vector<VerifyItem> verify_tile(const ForeignTile& tile, const Execution& execution = {});
 
 }  // namespace bn

@@ -150,6 +150,9 @@ void write_image(const std::filesystem::path& path, const Image& image, Metadata
 /// slice_10.
 bool natural_less(std::string_view a, std::string_view b);
 
+/// Throws invalid_input unless write_image() knows the extension of `path`. Looks at the name alone.
+void check_extension(const std::filesystem::path& path);
+
 /// Throws what write_image() would throw for this path and type, without writing: unknown
 /// extension, unfit sample type, missing folder, no permission. Call it before the work starts.
 void check_writable(const std::filesystem::path& path, SampleType type, int channels, int depth = 1);
