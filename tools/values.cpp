@@ -234,7 +234,7 @@ ValueKind<std::filesystem::path> texture_path() {
     try {
       check_extension(path);
     } catch (const Error& error) {
-      fail(text, where, fmt::format("has an {}", error.info().what), error.info().limit);
+      fail(text, where, fmt::format("names no format: {}", error.info().what), error.info().limit);
     }
     return path;
   };

@@ -222,7 +222,8 @@ class RecipeParser {
     try {
       check_extension(path);
     } catch (const Error& error) {
-      reader.mistake("path", fmt::format("'{}' has an {}", path, error.info().what), error.info().limit);
+      reader.mistake("path", fmt::format("'{}' names no format: {}", path, error.info().what),
+                     error.info().limit);
     }
   }
 

@@ -89,7 +89,10 @@ const Format& format_of(const std::filesystem::path& path) {
   for (const Format& format : kFormats) {
     extensions += fmt::format("{}.{}", extensions.empty() ? "" : ", ", format.extension);
   }
-  fail_input(path.string(), fmt::format("unknown extension '.{}'", extension_of(path)), extensions);
+  const std::string extension = extension_of(path);
+  fail_input(path.string(),
+             extension.empty() ? "no extension" : fmt::format("unknown extension '.{}'", extension),
+             extensions);
 }
 
 /// The format that the extension names, or an error if it cannot hold such samples.

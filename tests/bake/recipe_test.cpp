@@ -284,12 +284,13 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(RecipeMistakes, AreAllNamedInTheOrderOfTheLines) {
   try {
-    parse_recipe("version = 1\n[[mask]]\nname = 'm'\nsize = [0, 1]\nsigma = 99\noutputs = ['../m.png']\n",
-                 "a.toml", "");
+    parse_recipe(
+        "version = 1\n[[mask]]\nname = 'm'\nsize = [0, 1]\nsigma = 99\noutputs = ['../m.png', 'm.jpg']\n",
+        "a.toml", "");
     FAIL();
   } catch (const Error& error) {
     const std::string what = error.what();
-    EXPECT_NE(what.find("3 mistakes"), std::string::npos) << what;
+    EXPECT_NE(what.find("4 mistakes"), std::string::npos) << what;
     const auto size = what.find("a.toml:4: "), sigma = what.find("a.toml:5: "),
                path = what.find("a.toml:6: ");
     EXPECT_LT(size, sigma);

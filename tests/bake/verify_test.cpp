@@ -210,12 +210,18 @@ TEST_F(Verify, FilesOfOthersAndRubbishAreFailedItems) {
   EXPECT_EQ(failed("rubbish.png"), "metadata ");
   write_bytes(folder_ / "empty.exr", "");
   EXPECT_EQ(failed("empty.exr"), "metadata ");
-  const std::string png = bytes_of(folder_ / "masks/small.png");
-  write_bytes(folder_ / "cut.png", png.substr(0, png.size() / 2));
+  const std::string whole = bytes_of(folder_ / "masks/small.png");
+  write_bytes(folder_ / "cut.png", whole.substr(0, whole.size() / 2));
   EXPECT_EQ(failed("cut.png").find("metadata "), 0u);
   EXPECT_THROW(verify_path(folder_ / "nothing-here"), Error);
   fs::create_directory(folder_ / "empty");
-  EXPECT_EQ(failed("empty"), "metadata ");
+  EXPECT_EQ(failed("empty"), "foreign ");
+  write_bytes(folder_ / "README.md", "no texture");
+  EXPECT_EQ(failed("README.md"), "foreign ");
+  Image plain{.size = {4, 4}, .channels = 1, .type = SampleType::u8, .samples = std::vector<std::byte>(16)};
+  const auto png = encode_png(plain);
+  write_bytes(folder_ / "plain.png", std::string(png.begin(), png.end()));
+  EXPECT_EQ(failed("plain.png"), "foreign ");
 }
 
 TEST_F(Verify, TheManifestMustMatchTheFiles) {

@@ -121,6 +121,10 @@ TEST(CommandLine, SuggestsForMisspeltWords) {
   EXPECT_EQ(f.refusal({"solve", "a.png", "--thread=5"}),
             "solve: there is no option '--thread'; did you mean --threads?");
   EXPECT_EQ(f.refusal({"solve", "a.png", "--zzz"}), "solve: there is no option '--zzz'; see bn solve --help");
+  EXPECT_EQ(f.refusal({"solve", "a.png", "--rad", "5"}),
+            "solve: there is no option '--rad'; did you mean --radius?");
+  EXPECT_EQ(f.refusal({"noise", "make", "--output", "a"}),
+            "noise make: there is no option '--output'; did you mean --out?");
   EXPECT_EQ(f.refusal({"solve", "a.png", "-x"}), "solve: there is no option '-x'; see bn solve --help");
 }
 

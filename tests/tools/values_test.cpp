@@ -132,6 +132,8 @@ TEST(Values, NearestWordCountsEdits) {
   EXPECT_EQ(nearest_word("bkae", words), "bake");  // two letters swapped
   EXPECT_EQ(nearest_word("verfy", words), "verify");
   EXPECT_EQ(nearest_word("inof", words), "info");
+  EXPECT_EQ(nearest_word("bakery", words), "bake");  // goes on after a whole word
+  EXPECT_EQ(nearest_word("veri", words), "verify");  // breaks off
   EXPECT_EQ(nearest_word("spectrum", words), "");
   EXPECT_EQ(nearest_word("", words), "");
 }

@@ -26,9 +26,9 @@ outputs = [{ path = "tile.png", kind = "tile" }, { path = "atlas.png" }]
 
 class Verbs : public testing::Test {
  protected:
-  ProcessResult run(const std::vector<std::string>& arguments) {
+  ProcessResult run(const std::vector<std::string>& arguments, int exit_code = 0) {
     const auto result = run_bn(arguments, {.folder = scratch_.path()});
-    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.exit_code, exit_code) << result.err;
     return result;
   }
   Json json(const std::vector<std::string>& arguments) { return Json::parse(run(arguments).out); }
@@ -121,6 +121,65 @@ TEST_F(Verbs, BakeMakesSkipsAndVerifies) {
   EXPECT_EQ(text.out.find("FAIL"), std::string::npos) << text.out;
 }
 
+TEST_F(Verbs, JsonKeepsAListOfNumbersOnOneLine) {
+  const auto made = run({"noise", "void-and-cluster", "--size", "12x8", "-o", "m.png", "--json"});
+  EXPECT_NE(made.out.find("\n  \"size\": [12, 8],\n"), std::string::npos) << made.out;
+}
+
+TEST_F(Verbs, InfoPrintsEveryFileThatCanBeRead) {
+  run({"noise", "void-and-cluster", "--size", "12x8", "-o", "a.png"});
+  run({"noise", "void-and-cluster", "--size", "16x8", "-o", "b.png"});
+  write_bytes(scratch_ / "rubbish.png", "no picture");
+  const Json two = json({"info", "a.png", "b.png", "--json"});
+  ASSERT_EQ(two.size(), 2u);
+  EXPECT_EQ(two[1].at("size"), Json::array({16, 8}));
+  const auto all = run({"info", "."}, 3);
+  EXPECT_NE(all.out.find("a.png"), std::string::npos);
+  EXPECT_NE(all.out.find("b.png"), std::string::npos);
+  EXPECT_NE(all.err.find("rubbish.png"), std::string::npos);
+}
+
+TEST_F(Verbs, WhatIsNotOursIsNothingToVerify) {
+  write_bytes(scratch_ / "README.md", "no texture");
+  std::filesystem::create_directory(scratch_ / "empty");
+  for (const char* path : {"README.md", "empty"}) {
+    const auto result = run({"verify", path}, 3);
+    EXPECT_NE(result.err.find("nothing here was written by bn"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(Verbs, AQuietVerifyNamesWhatFails) {
+  run({"noise", "void-and-cluster", "--size", "12x8", "-o", "m.png"});
+  EXPECT_EQ(run({"verify", "m.png", "-q"}).out, "");
+  std::string bytes = read_bytes(scratch_ / "m.png");
+  write_bytes(scratch_ / "cut.png", bytes.substr(0, bytes.size() / 2));
+  const auto failed = run({"verify", "-q", "."}, 5);
+  EXPECT_NE(failed.out.find("FAIL  ./cut.png"), std::string::npos) << failed.out;
+  EXPECT_EQ(failed.out.find("pass"), std::string::npos) << failed.out;
+}
+
+TEST_F(Verbs, ARetargetTileOfAnotherProgramIsMeasured) {
+  run({"noise", "void-and-cluster", "--size", "16x16", "-o", "m.png"});
+  const Json made = json({"retarget", "m.png", "--step", "5,3", "--radius", "3", "-o", "t.png", "--json"});
+  const Json verdict = json({"verify", "t.png", "--mask", "m.png", "--step", "5,3", "--json"});
+  EXPECT_EQ(verdict.at("failed"), 0);
+  const std::string energy = std::to_string(made.at("energy").get<int>());
+  EXPECT_TRUE(verdict.at("items")[2].at("detail").get<std::string>().starts_with(energy + ", ")) << verdict;
+  EXPECT_NE(verdict.at("items")[3].at("detail").get<std::string>().find("is 0.00 % above it"),
+            std::string::npos);
+  const auto wrong = run({"verify", "t.png", "--mask", "m.png", "--step", "5,3", "--encoding", "plus3"}, 5);
+  EXPECT_NE(wrong.out.find("stored as plus128?"), std::string::npos) << wrong.out;
+  run({"verify", "t.png", "--mask", "m.png"}, 1);  // the step is needed
+  run({"verify", "t.png", "--step", "5,3"}, 1);    // the mask is needed
+  run({"verify", "t.png", "--mask", "m.png", "--step", "5,3", "--encoding", "minus3"}, 1);
+}
+
+TEST_F(Verbs, ARecipeThatIsAPictureIsNamedOnce) {
+  run({"noise", "void-and-cluster", "--size", "12x8", "-o", "m.png"});
+  const auto result = run({"bake", "m.png"}, 3);
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+}
+
 TEST_F(Verbs, ProgressAsJsonTellsTheWholeBake) {
   write_bytes(scratch_ / "r.toml", kRecipe);
   const auto result = run({"bake", "r.toml", "--out", "out", "--progress", "json"});
@@ -135,6 +194,7 @@ TEST_F(Verbs, ProgressAsJsonTellsTheWholeBake) {
                                               "file_written", "job_finished"}));
   const auto quiet = run({"bake", "r.toml", "--out", "out", "--quiet", "--force"});
   EXPECT_EQ(quiet.err, "");
+  EXPECT_EQ(quiet.out, "");
 }
 
 }  // namespace

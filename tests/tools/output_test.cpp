@@ -1,0 +1,23 @@
+// Protects: what people read: verdict words in colour as whole words only, nested results as lines.
+#include "tools/output.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace bn::tools {
+namespace {
+
+TEST(Output, ColoursVerdictsAndNothingElse) {
+  EXPECT_EQ(with_coloured_verdicts("pass  a.png"), "\033[32mpass\033[0m  a.png");
+  EXPECT_EQ(with_coloured_verdicts("b weak, c FAIL\n"), "b \033[33mweak\033[0m, c \033[1;31mFAIL\033[0m\n");
+  for (const char* plain : {"", "4 of 4 checks passed", "bypass", "FAILED weakest 0.5", "grün"})
+    EXPECT_EQ(with_coloured_verdicts(plain), plain);
+}
+
+TEST(Output, NestedNamesAreJoinedByDots) {
+  EXPECT_EQ(lines_of({{"a", {{"b", 1}, {"c", {1, 2}}}}, {"long", true}}), "a.b   1\na.c   1,2\nlong  yes\n");
+}
+
+}  // namespace
+}  // namespace bn::tools
