@@ -64,8 +64,11 @@ std::string allowed_of(const Option& option) {
 
 /// A condition in the words of recipes, method = "anneal", as a command line has it: --method anneal.
 std::string in_flags(std::string condition) {
-  if (const std::size_t at = condition.find(" = \""); at != std::string::npos) {
-    condition = "--" + condition.substr(0, at) + " " + condition.substr(at + 4);
+  // Several are joined by "and".
+  if (const std::size_t at = condition.find(" and "); at != std::string::npos)
+    return in_flags(condition.substr(0, at)) + " and " + in_flags(condition.substr(at + 5));
+  if (const std::size_t at = condition.find(" = "); at != std::string::npos) {
+    condition = "--" + condition.substr(0, at) + " " + condition.substr(at + 3);
     std::erase(condition, '"');
   }
   return condition;
@@ -73,8 +76,9 @@ std::string in_flags(std::string condition) {
 
 std::string help_of(const Option& option) {
   std::string help = option.help;
-  if (!option.needs.empty() && option.needs.starts_with("method")) return help;  // the heading says so
-  if (!option.needs.empty()) help += fmt::format(" Only with {}.", option.needs);
+  // The heading says so; and the command always has an image.
+  if (option.needs.starts_with("method") || option.needs.starts_with("image")) return help;
+  if (!option.needs.empty()) help += fmt::format(" Only with {}.", in_flags(option.needs));
   return help;
 }
 
@@ -100,6 +104,14 @@ Argument argument_of(const Option& option) {
   return argument;
 }
 
+/// The file that an entry is made from, which is an argument without a name; further ones have flags.
+const Option* first_file(const Options& options) {
+  for (const Option& option : options.list()) {
+    if (option.names_file) return &option;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 EntryArguments::EntryArguments(const Kind& kind) : entry_(kind.make()), options_(entry_->options()) {
@@ -112,7 +124,7 @@ void EntryArguments::declare(Arguments& arguments) {
     if (option.recipe_only || (option.type == OptionType::choice && option.words.size() < 2)) continue;
     Argument argument = argument_of(option);
     const std::string key = option.key;
-    if (option.names_file) {
+    if (option.names_file && &option == first_file(options_)) {
       std::transform(key.begin(), key.end(), argument.name.begin(),
                      [](unsigned char c) { return std::toupper(c); });
       argument.name.resize(key.size());
@@ -197,7 +209,7 @@ Json EntryArguments::to_json() const {
   Json json = Json::object();
   const auto add = [&json](const Options& options) {
     for (const Option& option : options.list()) {
-      if (!option.applies() || option.recipe_only || option.names_file) continue;
+      if (!option.applies() || option.recipe_only || &option == first_file(options)) continue;
       if (option.type == OptionType::choice && option.words.size() < 2) continue;
       std::visit(
           [&](const auto& held) {

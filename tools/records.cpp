@@ -76,15 +76,19 @@ std::string energy_text(const std::vector<TileRecord>& tiles) {
   const auto [least, greatest] = std::minmax_element(
       tiles.begin(), tiles.end(), [](const auto& a, const auto& b) { return a.energy < b.energy; });
   double worst_gap = 0.0;
+  // A bound of 0 says nothing: annealing a residual or a volume proves none.
+  const bool bounded = std::all_of(tiles.begin(), tiles.end(),
+                                   [](const auto& tile) { return tile.lower_bound > 0 || tile.energy == 0; });
   for (const auto& tile : tiles) {
     const auto excess = static_cast<double>(tile.energy - tile.lower_bound);
     if (excess > 0)
       worst_gap =
           std::max(worst_gap, excess / static_cast<double>(std::max<std::int64_t>(tile.lower_bound, 1)));
   }
-  std::string text = tiles.size() == 1 ? fmt::format("{}", least->energy)
-                                       : fmt::format("{}..{} over {} motions", least->energy,
-                                                     greatest->energy, tiles.size());
+  std::string text = tiles.size() == 1
+                         ? fmt::format("{}", least->energy)
+                         : fmt::format("{}..{} over {} tiles", least->energy, greatest->energy, tiles.size());
+  if (!bounded) return text;
   // Rounded up: the claim must hold.
   text += worst_gap == 0.0
               ? ", proven optimal"

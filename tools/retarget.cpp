@@ -69,8 +69,14 @@ Json result_of(const Settings& settings, const RetargetEntry& entry, const JobRe
   result.update(settings.arguments.to_json());
   result.update(to_json(job.facts));
   if (!entry.anneals) result["method"] = "exact";
-  // The plain tile, motion (0, 0), stands in the middle of its set.
-  const TileRecord& plain = job.tiles.at(job.tiles.size() / 2);
+  // The plain tile, motion (0, 0), stands in the middle of its set; a stack has as many sets as slices.
+  const auto motions = static_cast<std::size_t>((2 * entry.motion + 1) * (2 * entry.motion + 1));
+  TileRecord plain;
+  for (std::size_t i = motions / 2; i < job.tiles.size(); i += motions) {
+    plain.start_energy += job.tiles[i].start_energy;
+    plain.energy += job.tiles[i].energy;
+    plain.lower_bound += job.tiles[i].lower_bound;
+  }
   result["start_energy"] = plain.start_energy;
   result["energy"] = plain.energy;
   result["lower_bound"] = plain.lower_bound;
@@ -81,7 +87,7 @@ Json result_of(const Settings& settings, const RetargetEntry& entry, const JobRe
     result["file"] = job.files.front().path;
     result["pixel_hash"] = job.files.front().pixel_hash;
   }
-  if (settings.json && entry.motion > 0) {
+  if (settings.json && job.tiles.size() > 1) {
     for (const auto& tile : job.tiles) result["tiles"].push_back(to_json(tile));
   }
   return result;
@@ -104,7 +110,8 @@ void run(Settings& settings, Session& session) {
                     settings.seconds, proposals, proposals));
   }
   session.output.write_result(result_of(settings, entry, job), settings.json);
-  if (!settings.json && entry.motion > 0) session.output.tell(energy_table(job.tiles, entry.motion));
+  const bool has_table = entry.motion > 0 && !job.facts.find("slices");
+  if (!settings.json && has_table) session.output.tell(energy_table(job.tiles, entry.motion));
 }
 
 /// Flags of version 0.1, which go on working.

@@ -11,6 +11,7 @@
 #include "bake/inputs.h"
 #include "bake/kinds/retarget_source.h"
 #include "bake/sheet.h"
+#include "bn/volume.h"
 
 namespace bn::baking {
 namespace {
@@ -20,37 +21,45 @@ constexpr int kMaxSets = 32, kMaxMasks = 128;
 /// Reads what the sheet shows of a set from its own files.
 SheetSet view_of(const Recipe& recipe, const RetargetEntry& entry, const JobRecord& job,
                  const std::filesystem::path& out_dir, const Execution& execution) {
-  const std::filesystem::path source = input_paths(recipe, entry, out_dir).front();
-  const Levels levels = source_of(read_input(source, execution), channels_of(entry)).levels[0];
+  std::vector<Input> inputs;
+  for (const auto& path : input_paths(recipe, entry, out_dir)) inputs.push_back(read_input(path, execution));
+  const Source source = source_of(inputs, channels_of(entry));
+  const Levels& levels = source.levels[0];
+  FrameMasks masks = frame_masks(source, 0);  // of a stack its first slice
   const Extent size = levels.value.size();
   const auto mask = std::dynamic_pointer_cast<const MaskEntry>(find_entry(recipe, "mask", entry.mask));
   SheetSet view;
   view.name = entry.name;
-  view.levels = levels.value;
+  view.levels = std::move(masks.from);
+  view.to = std::move(masks.to);
   view.source =
       mask ? fmt::format("sigma {}, seed {}", mask->void_and_cluster.sigma_px, mask->void_and_cluster.seed)
            : fmt::format("{} levels", levels.distinct);
   view.step = job.facts.get<Offset>("step").value_or(Offset{});
   view.radius = entry.problem.radius;
   view.motion = entry.motion;
-  view.tiles = job.tiles;
-  view.plain = job.tiles.at(motion_index({0, 0}, entry.motion));
-  const std::size_t motions = job.tiles.size();
+  const auto motions = static_cast<std::size_t>((2 * entry.motion + 1) * (2 * entry.motion + 1));
+  view.tiles = {job.tiles.begin(),
+                job.tiles.begin() + static_cast<std::ptrdiff_t>(std::min(motions, job.tiles.size()))};
+  view.plain = view.tiles.at(motion_index({0, 0}, entry.motion));
   const auto optimal = static_cast<std::size_t>(std::count_if(
-      job.tiles.begin(), job.tiles.end(), [](auto& tile) { return tile.energy == tile.lower_bound; }));
+      view.tiles.begin(), view.tiles.end(), [](auto& tile) { return tile.energy == tile.lower_bound; }));
   view.about = fmt::format(
-      "{} x {}   step ({}, {}), repeats after {} frames   radius {} {}, {}{}   {} motion{}, {} proven "
-      "optimal",
-      size.width, size.height, view.step.x, view.step.y,
-      job.facts.get<std::int64_t>("orbit_length").value_or(0), entry.problem.radius,
-      name_of(entry.problem.reach), name_of(entry.problem.metric), entry.problem.wrap ? "" : ", no wrap",
-      motions, motions == 1 ? "" : "s", optimal == motions ? "all" : fmt::format("{}", optimal));
+      "{} x {}   step ({}, {}), {}   radius {} {}, {}{}   {} motion{}, {} proven optimal", size.width,
+      size.height, view.step.x, view.step.y,
+      source.moves()
+          ? fmt::format("repeats after {} frames", job.facts.get<std::int64_t>("orbit_length").value_or(0))
+      : source.depth() > 1 ? fmt::format("slice 0 of {}", source.depth())
+                           : std::string("to another mask"),
+      entry.problem.radius, name_of(entry.problem.reach), name_of(entry.problem.metric),
+      entry.problem.wrap ? "" : ", no wrap", motions, motions == 1 ? "" : "s",
+      optimal == motions ? "all" : fmt::format("{}", optimal));
   for (const RetargetOutput& output : entry.outputs) {
     const bool is_tile = output.kind == RetargetOutput::Kind::tile;
     const bool shows_plain_tile = !view.tile && (!is_tile || output.motion == Offset{});
     const bool shows_atlas = !view.atlas && !is_tile && entry.motion > 0;
     if (!shows_plain_tile && !shows_atlas) continue;
-    const Image image = read_image(out_dir / output.path, execution).image;
+    const Image image = slice_of(read_volume(out_dir / output.path, {}, execution).image, 0);
     if (shows_plain_tile) {
       const int index = is_tile ? 0 : static_cast<int>(motion_index({0, 0}, entry.motion));
       const Grid<Offset> stored = decode_moves(atlas_tile(image, size, index));
@@ -76,7 +85,9 @@ Image draw_contact_sheet(const Recipe& recipe, const std::filesystem::path& out_
   std::vector<const RetargetEntry*> all_sets;
   std::vector<const MaskEntry*> lone_masks;
   for (const auto& entry : recipe.entries) {
-    if (const auto* set = dynamic_cast<const RetargetEntry*>(entry.get())) all_sets.push_back(set);
+    // What moves between slices has no flat picture.
+    const auto* set = dynamic_cast<const RetargetEntry*>(entry.get());
+    if (set && !set->volume) all_sets.push_back(set);
   }
   for (const auto& entry : recipe.entries) {
     const auto* mask = dynamic_cast<const MaskEntry*>(entry.get());
@@ -97,7 +108,7 @@ Image draw_contact_sheet(const Recipe& recipe, const std::filesystem::path& out_
   for (std::size_t i = 0; i < std::min<std::size_t>(lone_masks.size(), kMaxMasks); ++i) {
     throw_if_stopped(execution);
     const MaskEntry& mask = *lone_masks[i];
-    Levels levels = source_of(read_input(out_dir / mask.path_of(0), execution), {0}).levels[0];
+    Levels levels = source_of({read_input(out_dir / mask.path_of(0), execution)}, {0}).levels[0];
     const Extent size = levels.value.size();
     masks.push_back(
         {mask.name, fmt::format("{} x {}", size.width, size.height),

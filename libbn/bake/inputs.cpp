@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bn/error.h"
+#include "bn/volume.h"
 
 namespace bn::baking {
 namespace {
@@ -72,11 +73,19 @@ std::vector<std::filesystem::path> input_paths(const Recipe& recipe, const Entry
 }
 
 Input read_input(const std::filesystem::path& path, const Execution& execution) {
-  FileContent file = read_image(path, execution);
+  Execution silent = execution;
+  silent.progress = {};
+  Volume volume = read_volume(path, {}, silent);
   return {.path = path,
-          .hash = pixel_hash(file.image),
-          .image = std::move(file.image),
-          .is_mask = file.metadata && file.metadata->kind == "mask"};
+          .hash = pixel_hash(volume.image),
+          .image = std::move(volume.image),
+          .is_mask = volume.metadata && volume.metadata->kind == "mask"};
+}
+
+std::vector<Shape> shapes_of(const std::vector<Input>& inputs) {
+  std::vector<Shape> shapes;
+  for (const Input& input : inputs) shapes.push_back(input.image.shape());
+  return shapes;
 }
 
 std::vector<std::size_t> baking_order(const Recipe& recipe) {

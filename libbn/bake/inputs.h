@@ -34,8 +34,9 @@ std::vector<std::shared_ptr<const Entry>> input_entries(const Recipe& recipe, co
 std::vector<std::filesystem::path> input_paths(const Recipe& recipe, const Entry& entry,
                                                const std::filesystem::path& out_dir);
 
-/// Reads one input. Errors: as read_image().
+/// Reads one input, which may be a volume. Errors: as read_volume().
 Input read_input(const std::filesystem::path& path, const Execution& execution);
+std::vector<Shape> shapes_of(const std::vector<Input>& inputs);
 
 /// Indices into recipe.entries such that every entry comes after those it is made from, and otherwise in
 /// their order. The recipe has no cycles; parse_recipe() sees to it.

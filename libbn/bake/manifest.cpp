@@ -84,8 +84,9 @@ Json json_of(const JobRecord& job) {
   if (!job.notes.empty()) json["notes"] = job.notes;
   for (const FileRecord& file : job.files) {
     Json entry{{"path", file.path}, {"kind", file.kind}, {"pixel_hash", file.pixel_hash}};
-    // A file has the tile of one motion or of all, in the order of `tiles`.
-    if (file.tiles.size() == 1) entry["motion"] = {file.tiles[0].motion.x, file.tiles[0].motion.y};
+    // A file has the tiles of one motion, one for each slice, or of all, in the order of `tiles`.
+    if (!file.tiles.empty() && (file.tiles.size() == 1 || file.tiles.size() < job.tiles.size()))
+      entry["motion"] = {file.tiles[0].motion.x, file.tiles[0].motion.y};
     json["files"].push_back(std::move(entry));
   }
   for (const TileRecord& tile : job.tiles) json["tiles"].push_back(json_of(tile));

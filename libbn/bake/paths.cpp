@@ -30,9 +30,4 @@ std::string path_problem(const std::string& text) {
   return "";
 }
 
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-  std::error_code failed;
-  return std::filesystem::equivalent(a, b, failed) && !failed;
-}
-
 }  // namespace bn::baking

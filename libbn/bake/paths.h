@@ -19,7 +19,4 @@ SampleType natural_type(const std::string& path);
 /// folder.
 std::string path_problem(const std::string& path);
 
-/// Whether both name one existing file, by whatever path or link.
-bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
-
 }  // namespace bn::baking

@@ -7,7 +7,7 @@
 
 #include "bake/contact_sheet.h"
 #include "bake/inputs.h"
-#include "bake/paths.h"
+#include "bake/texture_files.h"
 #include "bake/up_to_date.h"
 #include "bn/bake.h"
 #include "bn/error.h"
@@ -82,11 +82,13 @@ class Planner {
     }
   }
 
-  void check_file(int line, const std::string& what, const std::string& path, SampleType type, int channels) {
+  void check_file(int line, const std::string& what, const std::string& path, int depth, SampleType type,
+                  int channels) {
     // The folders of a new bake do not exist yet; the nearest one that does answers for them.
     const fs::path file = options_.out_dir / path;
     const fs::path probe = existing_folder(file.parent_path()) / file.filename();
-    passes(line, fmt::format("{}: output '{}'", what, path), [&] { check_writable(probe, type, channels); });
+    passes(line, fmt::format("{}: output '{}'", what, path),
+           [&] { check_texture_writable(probe, depth, type, channels); });
   }
 
   const PlannedJob* job_of(const Entry& entry) const {
@@ -99,12 +101,8 @@ class Planner {
   void plan_entry(const Entry& entry) {
     const std::string what = fmt::format("{} '{}'", entry.kind().table, entry.name);
     PlannedJob job{.kind = entry.kind().table, .name = entry.name};
-    for (std::size_t i = 0; i < entry.output_count(); ++i) {
-      job.files.push_back(entry.path_of(i));
-      check_file(entry.line_of_output(i), what, entry.path_of(i), entry.output_type(i),
-                 entry.output_channels(i));
-    }
-    std::vector<Extent> sizes;
+    for (std::size_t i = 0; i < entry.output_count(); ++i) job.files.push_back(entry.path_of(i));
+    std::vector<Shape> shapes;
     std::vector<Input> inputs;
     bool can_look = true;
     const std::vector<InputName> names = input_names(entry);
@@ -113,21 +111,25 @@ class Planner {
       if (names[i].is_file()) {
         const std::string input = fmt::format("{}: {} '{}'", what, names[i].key, names[i].text);
         if (!passes(entry.line, input, [&] { inputs.push_back(read_input(paths[i], execution_)); })) return;
-        sizes.push_back(inputs.back().image.size);
+        shapes.push_back(inputs.back().image.shape());
         continue;
       }
       const auto source = find_entry(recipe_, names[i].kind, names[i].text);
-      sizes.push_back(source->size());
+      if (const auto shape = source->shape()) shapes.push_back(*shape);
       const PlannedJob* made_by = job_of(*source);
       can_look = can_look && made_by && made_by->up_to_date;
       if (can_look) inputs.push_back(read_input(paths[i], execution_));
     }
-    entry.check_inputs(sizes,
+    for (std::size_t i = 0; i < entry.output_count(); ++i) {
+      check_file(entry.line_of_output(i), what, entry.path_of(i), entry.output_depth(i, shapes),
+                 entry.output_type(i), entry.output_channels(i));
+    }
+    entry.check_inputs(shapes,
                        [&](std::string_view key, std::string problem, std::string limit, std::string remedy) {
                          diagnostics_.add(entry.line, fmt::format("{}: {} {}", what, key, problem),
                                           std::move(limit), std::move(remedy));
                        });
-    const Cost cost = entry.cost(sizes, execution_);
+    const Cost cost = entry.cost(shapes, execution_);
     job.estimated_seconds = cost.seconds;
     job.memory_bytes = cost.memory_bytes;
     check_memory(execution_, job.memory_bytes, fmt::format("{}:{}: {}", recipe_.name, entry.line, what));
@@ -147,7 +149,7 @@ class Planner {
       if (!input.is_file()) continue;
       for (const PlannedJob& job : plan_.jobs) {
         for (const std::string& file : job.files) {
-          if (!is_same_file(options_.out_dir / file, recipe_.folder / input.text)) continue;
+          if (!would_replace(options_.out_dir / file, recipe_.folder / input.text)) continue;
           diagnostics_.add(entry.line,
                            fmt::format("{} '{}': {} '{}' would be replaced by the output '{}' of '{}'",
                                        entry.kind().table, entry.name, input.key, input.text, file, job.name),
@@ -159,7 +161,7 @@ class Planner {
 
   void plan_contact_sheet() {
     constexpr double kContactSheetSeconds = 0.3;
-    check_file(0, "contact_sheet", recipe_.contact_sheet, SampleType::u8, 3);
+    check_file(0, "contact_sheet", recipe_.contact_sheet, 1, SampleType::u8, 3);
     const bool others_hold =
         std::all_of(plan_.jobs.begin(), plan_.jobs.end(), [](auto& job) { return job.up_to_date; });
     const OutputFile file = contact_sheet_file(recipe_, options_.out_dir);

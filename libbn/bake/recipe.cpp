@@ -254,11 +254,11 @@ class RecipeParser {
 
   void check_references() {
     for (const auto& entry : recipe_.entries) {
-      std::vector<Extent> sizes;
+      std::vector<Shape> shapes;
       for (const InputName& input : input_names(*entry)) {
-        if (!input.is_file()) check_reference(*entry, input, sizes);
+        if (!input.is_file()) check_reference(*entry, input, shapes);
       }
-      entry->check_inputs(sizes, complaining_of(*entry));
+      entry->check_inputs(shapes, complaining_of(*entry));
     }
     if (const auto entry = entry_in_cycle(recipe_)) {
       diagnostics_.add(entry->line,
@@ -267,7 +267,7 @@ class RecipeParser {
     }
   }
 
-  void check_reference(const Entry& entry, const InputName& input, std::vector<Extent>& sizes) {
+  void check_reference(const Entry& entry, const InputName& input, std::vector<Shape>& shapes) {
     const std::string what = fmt::format("{} '{}'", entry.kind().table, entry.name);
     const auto source = find_entry(recipe_, input.kind, input.text);
     if (!source) {
@@ -282,7 +282,7 @@ class RecipeParser {
                                        : fmt::format("did you mean '{}'?", nearest));
       return;
     }
-    if (source->size().area() > 0) sizes.push_back(source->size());
+    if (const auto shape = source->shape()) shapes.push_back(*shape);
     try {
       // The file names its source's file, so there must be one with those very samples.
       entry.input_output(*source);

@@ -87,10 +87,12 @@ struct GreyLevels {
   }
 };
 
-Grid<Colour> residual(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step, double gain) {
+Grid<Colour> residual(const SheetSet& set, const Grid<Offset>& move, double gain) {
+  const Grid<std::int32_t>& levels = set.levels;
+  const Offset step = set.step;
   return coloured(levels.size(), [&](int x, int y) {
     const Offset r = move(x, y);
-    const std::int32_t there = levels.torus(std::int64_t{x} + r.x + step.x, std::int64_t{y} + r.y + step.y);
+    const std::int32_t there = set.to.torus(std::int64_t{x} + r.x + step.x, std::int64_t{y} + r.y + step.y);
     return scale_colour(std::abs(levels(x, y) - there) * gain);
   });
 }
@@ -107,12 +109,13 @@ class Sheet {
     const double pixels = static_cast<double>(set.levels.count());
     panel(0, 0, "source D", set.source, levels.picture());
     spectrum(1, 0, set.levels);
-    panel(2, 0, "|D(u)-D(u+d)|", energy_text(set.plain.start_energy, pixels),
-          residual(set.levels, Grid<Offset>(set.levels.size()), set.step, 1.0 / levels.span));
+    const char* next = set.to == set.levels ? "D" : "T";
+    panel(2, 0, fmt::format("|D(u)-{}(u+d)|", next), energy_text(set.plain.start_energy, pixels),
+          residual(set, Grid<Offset>(set.levels.size()), 1.0 / levels.span));
     bar(2, 0, kPanel, "0", fmt::format("{:.0f} levels", levels.span));
     if (set.tile) {
-      panel(3, 0, "|D(u)-D(u+R+d)|", energy_text(set.plain.energy, pixels),
-            residual(set.levels, *set.tile, set.step, kResidualGain / levels.span));
+      panel(3, 0, fmt::format("|D(u)-{}(u+R+d)|", next), energy_text(set.plain.energy, pixels),
+            residual(set, *set.tile, kResidualGain / levels.span));
       bar(3, 0, kPanel, "0", fmt::format("{:.3g} levels", levels.span / kResidualGain));
       hues(set);
       arrows(*set.tile, set.radius);

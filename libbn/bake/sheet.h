@@ -18,6 +18,7 @@ struct SheetSet {
   std::string name;
   std::string about;          ///< one line under the name
   Grid<std::int32_t> levels;  ///< of the mask D
+  Grid<std::int32_t> to;      ///< of the next frame's mask T; D itself for a mask that moves
   std::string source;         ///< what D is made of
   Offset step;
   int radius = 1;

@@ -1,6 +1,7 @@
 #include "bake/up_to_date.h"
 
 #include "bn/error.h"
+#include "bn/volume.h"
 
 namespace bn::baking {
 namespace {
@@ -19,12 +20,12 @@ bool is_up_to_date(const OutputFile& file, const FileRecord& recorded, Metadata 
                    const Execution& execution) {
   if (recorded.path != file.name) return false;
   try {
-    const FileContent content = read_image(file.path, execution);
-    if (!content.metadata) return false;
+    const Volume content = read_volume(file.path, {}, execution);
+    if (!content.metadata || !content.as_recorded) return false;
     // Another version of the tool, with the same version of the algorithm, makes the same picture.
     expected.tool_version = content.metadata->tool_version;
     expected.recipe = content.metadata->recipe;
-    expected.pixel_hash = recorded.pixel_hash;
+    expected.pixel_hash = content.metadata->pixel_hash;  // of one slice, where each has a file
     expected.tiles = recorded.tiles;
     return *content.metadata == expected && same_entries(content.metadata->recipe, file.recipe) &&
            pixel_hash(content.image) == recorded.pixel_hash;

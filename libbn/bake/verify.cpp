@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "bake/inputs.h"
 #include "bake/manifest.h"
+#include "bake/texture_files.h"
 #include "bn/bake.h"
 #include "bn/error.h"
 
@@ -25,9 +27,9 @@ class FileVerifier : public Checks {
       : file_(std::move(file)), execution_(execution), items_(items) {}
 
   void verify() {
-    FileContent content;
+    Volume content;
     const bool readable = attempt("metadata", [&] {
-      content = read_image(file_, execution_);
+      content = read_volume(file_, {}, execution_);
       return std::string();
     });
     if (!readable) return;
@@ -45,9 +47,10 @@ class FileVerifier : public Checks {
         fmt::format("{}, {} {}, tool {}", metadata.kind, metadata.algorithm, metadata.algorithm_version,
                     metadata.tool_version));
     const std::string hash = pixel_hash(content.image);
-    add("hash", hash == metadata.pixel_hash,
-        hash == metadata.pixel_hash
-            ? hash
+    add("hash", content.as_recorded,
+        content.as_recorded ? hash
+        : content.files.size() > 1
+            ? fmt::format("{}", fmt::join(content.notes, "; "))
             : fmt::format("pixels have {}, recorded is {}", hash, metadata.pixel_hash));
     if (metadata.kind == "packed") {
       add("recipe", true, "the command that packed it; its sources are not read");
@@ -122,7 +125,7 @@ void verify_manifest(const fs::path& path, std::vector<VerifyItem>& items, const
       VerifyItem item{
           .file = path.parent_path() / file.path, .check = "manifest", .pass = false, .detail = ""};
       try {
-        const FileContent content = read_image(item.file, execution);
+        const Volume content = read_volume(item.file, {}, execution);
         const std::string hash = pixel_hash(content.image);
         const bool same_tiles = content.metadata && content.metadata->tiles == file.tiles;
         item.pass = hash == file.pixel_hash && same_tiles;
@@ -139,6 +142,21 @@ void verify_manifest(const fs::path& path, std::vector<VerifyItem>& items, const
   }
 }
 
+/// What is to be verified as one: the file, or the volume that it is a slice of.
+fs::path whole_of(const fs::path& file, const Execution& execution) {
+  try {
+    const auto metadata = read_image(file, execution).metadata;
+    if (!metadata) return file;
+    const Recipe recipe = parse_recipe(metadata->recipe, "recipe", file.parent_path());
+    const Entry& entry = *recipe.entries.back();
+    if (entry.output_count() == 1) return pattern_of_slice(file, entry.path_of(0)).value_or(file);
+  } catch (const Error& error) {
+    // What is wrong with it is found again, and reported, when it is verified.
+    if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
+  }
+  return file;
+}
+
 }  // namespace
 
 std::vector<VerifyItem> verify_path(const fs::path& path, const Execution& execution) {
@@ -150,7 +168,7 @@ std::vector<VerifyItem> verify_path(const fs::path& path, const Execution& execu
   std::vector<VerifyItem> items;
   if (!fs::is_directory(path)) {
     if (is_ours_by_name(path)) {
-      FileVerifier(path, execution, items).verify();
+      FileVerifier(whole_of(path, execution), execution, items).verify();
     } else {
       items.push_back({.file = path,
                        .check = "foreign",
@@ -179,10 +197,12 @@ std::vector<VerifyItem> verify_path(const fs::path& path, const Execution& execu
     items.push_back({.file = path, .check = "foreign", .pass = false, .detail = "no texture in this folder"});
   }
   Execution each = execution;
+  std::set<fs::path> done;  // volumes with a file a slice
   for (std::size_t i = 0; i < files.size(); ++i) {
     throw_if_stopped(execution);
     each.progress = {};
-    FileVerifier(files[i], each, items).verify();
+    const fs::path whole = whole_of(files[i], each);
+    if (whole == files[i] || done.insert(whole).second) FileVerifier(whole, each, items).verify();
     if (execution.progress)
       execution.progress(static_cast<double>(i + 1) / static_cast<double>(files.size()));
   }

@@ -7,7 +7,7 @@
 #include "bake/bake_meter.h"
 #include "bake/inputs.h"
 #include "bake/kinds/retarget_source.h"
-#include "bake/paths.h"
+#include "bake/texture_files.h"
 #include "bn/error.h"
 
 namespace bn {
@@ -47,7 +47,7 @@ JobRecord make_files(const Entry& entry, const std::vector<Input>& inputs,
                          .kind = metadata.kind,
                          .pixel_hash = pixel_hash(picture.image),
                          .tiles = picture.tiles});
-    take(files[i], std::move(picture.image), std::move(metadata), job.files.back());
+    take(files[i], std::move(picture), std::move(metadata), job.files.back());
   }
   const std::filesystem::path checkpoint = entry.checkpoint();
   std::error_code ignored;
@@ -84,13 +84,14 @@ void check_recipes(const std::vector<OutputFile>& files) {
 }
 
 /// What can be checked of an entry's outputs before the work starts.
-std::vector<OutputFile> checked_files(const Entry& entry) {
+std::vector<OutputFile> checked_files(const Entry& entry, const std::vector<Input>& inputs) {
   const std::vector<OutputFile> files = free_output_files(entry);
   check_recipes(files);
   for (std::size_t i = 0; i < files.size(); ++i) {
-    check_writable(files[i].path, entry.output_type(i), entry.output_channels(i));
-    for (const InputName& input : input_names(entry)) {
-      if (!input.is_file() || !is_same_file(files[i].path, input.text)) continue;
+    const int depth = entry.output_depth(i, shapes_of(inputs));
+    check_texture_writable(files[i].path, depth, entry.output_type(i), entry.output_channels(i));
+    for (const Input& input : inputs) {
+      if (!would_replace(files[i].path, input.path)) continue;
       throw Error({.code = ErrorCode::invalid_input,
                    .what = "would replace the image that it is made for",
                    .where = files[i].path.string(),
@@ -127,17 +128,17 @@ BakePlan plan_of(const Entry& entry) {
 JobRecord baking::write_entry(const Entry& entry, const std::vector<Input>& inputs,
                               const std::vector<OutputFile>& files, const Execution& execution,
                               const OnFile& on_file) {
-  return make_files(
-      entry, inputs, files, execution,
-      [&](const OutputFile& file, const Image& image, const Metadata& metadata, const FileRecord& record) {
-        write_image(file.path, image, metadata);
-        if (on_file) on_file(record);
-      });
+  return make_files(entry, inputs, files, execution,
+                    [&](const OutputFile& file, const Picture& picture, const Metadata& metadata,
+                        const FileRecord& record) {
+                      write_texture(file.path, picture, metadata);
+                      if (on_file) on_file(record);
+                    });
 }
 
 JobRecord make_entry(const Entry& given, const Execution& execution, const BakeEvents& events) {
-  std::vector<OutputFile> files = checked_files(given);
   const std::vector<Input> inputs = read_inputs(given, execution);
+  std::vector<OutputFile> files = checked_files(given, inputs);
   std::shared_ptr<Entry> entry = given.clone();
   if (entry->settle(inputs, execution)) files = free_output_files(*entry);
   const BakePlan plan = plan_of(*entry);
@@ -153,9 +154,9 @@ BakedEntry bake_entry(const Entry& entry, const Execution& execution) {
   BakedEntry baked;
   baked.record =
       make_files(entry, read_inputs(entry, execution), files, execution,
-                 [&](const OutputFile& file, Image image, Metadata metadata, const FileRecord& record) {
+                 [&](const OutputFile& file, Picture picture, Metadata metadata, const FileRecord& record) {
                    metadata.pixel_hash = record.pixel_hash;
-                   baked.files.push_back({file.name, std::move(image), std::move(metadata)});
+                   baked.files.push_back({file.name, std::move(picture.image), std::move(metadata)});
                  });
   return baked;
 }
@@ -168,8 +169,8 @@ JobRecord write_retarget(const RetargetEntry& entry, const RetargetTile& tile, c
                  .limit = "one tile",
                  .remedy = ""});
   }
-  const OutputFile file = checked_files(entry).front();
   const std::vector<Input> inputs = read_inputs(entry, execution);
+  const OutputFile file = checked_files(entry, inputs).front();
   const Made made = entry.made_elsewhere(inputs, tile);
   JobRecord job = record_of(entry, made);
   const Picture picture = made.picture(0);

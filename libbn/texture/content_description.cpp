@@ -31,10 +31,17 @@ void add_mask(std::vector<std::string>& sentences, const Image& image) {
 
 void add_moves(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
   const bool gather = metadata.facts.get<std::string>("form") == "gather";
+  const bool volume = metadata.facts.get<int>("step_z").has_value();
   sentences.push_back(
       fmt::format("Channel 0 is x + 128, channel 1 is y + 128{}: {}, in pixels.",
-                  image.depth > 1 ? ", channel 2 is z + 128" : ", channel 2 is 0",
+                  volume ? ", channel 2 is z + 128" : ", channel 2 is 0",
                   gather ? "where the seed of a pixel comes from" : "where the seed of a pixel goes"));
+  if (image.depth > 1 && !volume) {
+    sentences.push_back(
+        metadata.facts.find("to")
+            ? "Slice t carries seeds from slice t of its source to slice t of the other mask."
+            : "Slice t carries seeds from slice t of its source to the next one, the last to the first.");
+  }
 }
 
 }  // namespace
@@ -45,7 +52,7 @@ std::vector<std::string> content_description(const Image& image, const Metadata&
   if (metadata.kind == "mask") add_mask(sentences, image);
   if (atlas || metadata.kind == "retarget-tile") add_moves(sentences, image, metadata);
   if (atlas && !metadata.tiles.empty()) {
-    const auto count = static_cast<int>(metadata.tiles.size());
+    const int count = static_cast<int>(metadata.tiles.size()) / image.depth;
     const int columns = static_cast<int>(std::lround(std::sqrt(count)));
     if (columns * columns == count && image.size.width % columns == 0 && image.size.height % columns == 0) {
       const Offset first = metadata.tiles.front().motion, last = metadata.tiles.back().motion;

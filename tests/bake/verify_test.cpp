@@ -125,7 +125,6 @@ TEST_F(Verify, AFalseStartEnergyIsFound) {
 
 TEST_F(Verify, ABoundAboveTheOptimumIsFound) {
   // A worse permutation that claims to be optimal: everything fits but the bound.
-  const Source source = source_of(read_input(folder_ / "masks/small.png", {}), {0});
   tamper("set/tile.png", [&](Image& image, Metadata& metadata) {
     for (std::size_t pixel = 0; pixel < 256; ++pixel) set_move(image, pixel, {0, 0});
     metadata.tiles[0].energy = metadata.tiles[0].lower_bound = metadata.tiles[0].start_energy;

@@ -45,8 +45,8 @@ class StripesEntry : public EntryOf<StripesEntry, StripesOutput> {
   Options output_options(std::size_t) override { return {}; }
   SampleType output_type(std::size_t) const override { return SampleType::u8; }
   int output_channels(std::size_t) const override { return 1; }
-  Extent size() const override { return extent; }
-  Cost cost(const std::vector<Extent>&, const Execution&) const override { return {1e-6, 4096}; }
+  std::optional<Shape> shape() const override { return extent; }
+  Cost cost(const std::vector<Shape>&, const Execution&) const override { return {1e-6, 4096}; }
   Made make(const std::vector<Input>&, const Execution&) const override {
     return {.picture = [this](std::size_t) {
       Image image{.size = extent, .channels = 1, .type = SampleType::u8, .samples = {}};

@@ -85,11 +85,12 @@ Options MaskEntry::output_options(std::size_t output) {
   return options;
 }
 
-Cost MaskEntry::cost(const std::vector<Extent>&, const Execution&) const {
+Cost MaskEntry::cost(const std::vector<Shape>&, const Execution&) const {
   // Measured on one core of a Zen 5 machine; the seconds only pace the progress bar.
   constexpr double kSecondsPerPixel = 0.3e-6;
   constexpr std::uint64_t kBytesPerPixel = 12 + 4, kBytesPerSample = 4 + 4;  // the solver; ranks and samples
-  const auto pixels = static_cast<std::uint64_t>(size().area()), masks = static_cast<std::uint64_t>(channels);
+  const auto pixels = static_cast<std::uint64_t>(void_and_cluster.size.area()),
+             masks = static_cast<std::uint64_t>(channels);
   return {.seconds = static_cast<double>(pixels * masks) * kSecondsPerPixel,
           .memory_bytes = pixels * (kBytesPerPixel + (masks - 1) * kBytesPerSample + 4)};
 }

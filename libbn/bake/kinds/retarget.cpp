@@ -8,6 +8,7 @@
 
 #include "bake/kinds/all.h"
 #include "bake/kinds/retarget_source.h"
+#include "bake/paths.h"
 #include "bn/error.h"
 #include "bn/kinds.h"
 
@@ -33,6 +34,11 @@ const Kind& baking::retarget_kind() {
           "moves nothing farther than the radius, and has the least energy possible; lower_bound is the "
           "proof. Any image "
           "serves as a mask: 8 bit, 16 bit or float.\n\n"
+          "With --to the next frame has another mask. A stack of slices (a folder, slice_%03d.png, .ktx2, "
+          ".dds, .bin, "
+          ".h) has a tile for each slice, to the next one, and the last to the first; with --volume true, "
+          "annealed, "
+          "seeds move between slices too.\n\n"
           "With --motion N > 0 the printed energies are those of motion 0,0, optimal speaks for all, and "
           "--json lists "
           "every motion.",
@@ -45,6 +51,9 @@ const Kind& baking::retarget_kind() {
             "only the figures; nothing is written"},
            {"bn retarget large.exr --gap 0.5% -o tile.png --json",
             "stop within a certified 0.5 % of the optimum"},
+           {"bn retarget a.png --to b.png -o tile.png", "from one mask to another"},
+           {"bn retarget slice_%03d.png -o retarget_%03d.png",
+            "a stack: one proven tile a slice, to the next one, the last to the first"},
            {"bn retarget mask.png --method anneal --schedule kirkpatrick --seconds 2 --seed 1 -o tile.png",
             "anneal for two seconds; Ctrl-C and the same command again go on from tile.png.checkpoint"},
            {"bn retarget rgb.png --method anneal --channels 0,1,2 --weights 2,4,1 --proposals 1e9 -o "
@@ -185,14 +194,27 @@ Options RetargetEntry::options() {
                "image = \"path\", and without channels");
   options.text("mask", mask, "The source: the name of a [[mask]].").naming_entry("mask").only_in_recipes();
   options
+      .text("to", to,
+            "The mask of the next frame, where it is not the source moved by the step: an image file.")
+      .naming_file()
+      .from_edition(2)
+      .only_if(reads_image, "image = \"path\"");
+  options.text("to_mask", to_mask, "The same: the name of a [[mask]].")
+      .naming_entry("mask")
+      .only_in_recipes()
+      .from_edition(2)
+      .only_if([this] { return !mask.empty(); }, "mask = \"name\"");
+  options
       .choice<SampleType>(
           "levels", levels, kSampleTypes,
           "The samples of the mask that the renderer reads; the mask must have an output of them.")
       .only_in_recipes()
       .only_if([this] { return image.empty(); }, "mask = \"name\"");
   options
-      .offset("step", step, -kMaxStep, kMaxStep, "auto",
-              "How far the mask moves from frame to frame; auto picks a step with a long orbit.")
+      .offset(
+          "step", step, -kMaxStep, kMaxStep, "auto",
+          "How far the mask moves from frame to frame; auto picks a step with a long orbit, and 0,0 between "
+          "two masks or slices.")
       .in("pixels");
   options.integer("radius", problem.radius, 1, 32, "The farthest that a seed may move.").in("pixels");
   options.choice<Reach>("reach", problem.reach,
@@ -211,6 +233,14 @@ Options RetargetEntry::options() {
                     "The proven optimum, or simulated annealing.")
       .from_edition(2);
   declare_annealing(options, *this);
+  options.boolean("volume", volume, "Whether the slices are one volume, whose seeds move between slices too.")
+      .from_edition(2)
+      .only_if([this] { return anneals; }, "method = \"anneal\"");
+  options
+      .integer("step_z", step_z, -kMaxStep, kMaxStep, "How far the volume moves along z from frame to frame.")
+      .in("slices")
+      .from_edition(2)
+      .only_if([this] { return anneals && volume; }, "method = \"anneal\" and volume = true");
   Option& gap =
       options.real("gap", problem.gap, 0.0, 1.0,
                    "Stop when the energy is proven to be within this share of the optimum; 0: prove it.");
@@ -229,6 +259,9 @@ void RetargetEntry::check(const Complain& complain) const {
              "either mask = \"name\" or image = \"path\"", "");
   }
   if (!anneals) return;
+  if (volume && anneal.residual_sigma_px > 0.0)
+    complain("residual_sigma", "is of flat tiles", "0 with volume = true", "");
+  if (volume && motion > 0) complain("motion", fmt::format("is {}", motion), "0 with volume = true", "");
   const AnnealOptions& run = anneal.options;
   if (run.start.rule == StartTemperature::Rule::given && run.end_temperature > run.start.value) {
     complain("end_temperature", fmt::format("is {}, above the start", run.end_temperature),
@@ -295,8 +328,21 @@ std::size_t RetargetEntry::input_output(const Entry& source) const {
        .remedy = fmt::format("add {{ path = \"...\", type = \"{}\" }} to its outputs", name_of(levels))});
 }
 
-void RetargetEntry::check_inputs(const std::vector<Extent>& sizes, const Complain& complain) const {
-  for (const Extent size : sizes) {
+void RetargetEntry::check_inputs(const std::vector<Shape>& shapes, const Complain& complain) const {
+  const bool second = !to.empty() || !to_mask.empty();
+  if (second && shapes.size() > 1 && shapes[0] != shapes[1]) {
+    complain(to.empty() ? "to_mask" : "to",
+             fmt::format("is a mask of {}x{}x{}", shapes[1].width, shapes[1].height, shapes[1].depth),
+             fmt::format("{}x{}x{}, as the source", shapes[0].width, shapes[0].height, shapes[0].depth), "");
+  }
+  if (!shapes.empty() && anneals && !volume && shapes[0].depth > 1) {
+    complain("method", fmt::format("anneals one tile, and the source has {} slices", shapes[0].depth),
+             "exact for a tile a slice, or volume = true", "");
+  }
+  if (!shapes.empty() && volume && shapes[0].depth == 1)
+    complain("volume", "is true, and the source has one slice", "a source of several slices", "");
+  for (const Shape shape : shapes) {
+    const Extent size = shape.slice();
     const int most = std::min(8, largest_motion(size));
     if (motion <= most) continue;
     complain("motion", fmt::format("{} is larger than the tile of {}x{}", motion, size.width, size.height),
@@ -304,14 +350,25 @@ void RetargetEntry::check_inputs(const std::vector<Extent>& sizes, const Complai
   }
 }
 
-Cost RetargetEntry::cost(const std::vector<Extent>& input_sizes, const Execution& execution) const {
+int RetargetEntry::output_channels(std::size_t output) const {
+  // DXGI knows no three channels of 8 bit: x and y alone, or the move in a volume and alpha.
+  const bool is_dds = lower_case_extension(outputs.at(output).path) == ".dds";
+  return !is_dds ? 3 : volume ? 4 : 2;
+}
+
+int RetargetEntry::output_depth(std::size_t, const std::vector<Shape>& input_shapes) const {
+  return input_shapes.empty() ? 1 : input_shapes.front().depth;
+}
+
+Cost RetargetEntry::cost(const std::vector<Shape>& input_shapes, const Execution& execution) const {
   // Measured on one core of a Zen 5 machine; the seconds only pace the progress bar.
   constexpr double kSecondsPerPixel = 1.5e-6;  // up to 128 x 128, then growing with the side
   constexpr double kSecondsPerProposal = 6e-10, kSecondsPerFilteredProposal = 1e-7;
   constexpr std::uint64_t kSolverBytesPerPixel = 64;       // of a tile in work
   constexpr std::uint64_t kTileBytesPerPixel = 8 + 3 + 3;  // of a finished tile: moves, image, atlas
-  const Extent size = input_sizes.empty() ? Extent{} : input_sizes.front();
-  const int tiles = (2 * motion + 1) * (2 * motion + 1);
+  const Shape shape = input_shapes.empty() ? Shape{0, 0, 1} : input_shapes.front();
+  const Extent size = volume ? Extent{shape.width, shape.height * shape.depth} : shape.slice();
+  const int tiles = (2 * motion + 1) * (2 * motion + 1) * (volume ? 1 : shape.depth);
   const auto pixels = static_cast<double>(size.area());
   Cost cost{.seconds = tiles * pixels * kSecondsPerPixel * std::max(1.0, std::sqrt(pixels) / 128.0)};
   if (anneals) {
@@ -335,18 +392,25 @@ Metadata RetargetEntry::metadata(std::size_t output, const std::vector<Input>& i
   metadata.kind = file.kind == RetargetOutput::Kind::tile ? "retarget-tile" : "retarget-atlas";
   Facts& facts = metadata.facts;
   if (anneals) facts.add("seed", anneal.options.seed);
-  facts.add("step", step ? *step : auto_step(source.image.size).step);
+  const bool moves = source.image.depth == 1 && inputs.size() == 1;
+  facts.add("step", step ? *step : moves ? auto_step(source.image.size).step : Offset{0, 0});
+  if (volume) facts.add("step_z", step_z);
   facts.add("radius", problem.radius);
   facts.add("reach", name_of(problem.reach));
   facts.add("metric", name_of(problem.metric));
   facts.add("wrap", Value(problem.wrap));
   facts.add("form", name_of(file.form));
   const auto from = std::filesystem::absolute(folder / ".").lexically_normal();
-  facts.add(
-      "source",
-      std::filesystem::absolute(source.path).lexically_normal().lexically_relative(from).generic_string());
+  const auto relative = [&](const Input& input) {
+    return std::filesystem::absolute(input.path).lexically_normal().lexically_relative(from).generic_string();
+  };
+  facts.add("source", relative(source));
   facts.add("source_channel", channels_of(*this).front());
   facts.add("source_hash", source.hash);
+  if (inputs.size() > 1) {
+    facts.add("to", relative(inputs[1]));
+    facts.add("to_hash", inputs[1].hash);
+  }
   return metadata;
 }
 
@@ -360,9 +424,10 @@ TileRecord record_of(const RetargetTile& tile, Offset motion) {
 }
 
 /// An annealed tile's energy was kept by adding changes; here it is computed afresh.
-void require_energy(const RetargetEntry& entry, const Source& source, const RetargetTile& tile,
+void require_energy(const RetargetEntry& entry, const Source& source, const MadeTile& made_tile,
                     const RetargetOptions& options, Made& made) {
-  const std::int64_t recomputed = energy_of(entry, source, tile.move, options);
+  const RetargetTile& tile = made_tile.tile;
+  const std::int64_t recomputed = energy_of(entry, source, 0, tile.move, made_tile.move_z, options);
   if (recomputed != tile.energy) {
     throw Error({.code = ErrorCode::verification_failed,
                  .what = fmt::format("annealing says energy {}, its tile has {}", tile.energy, recomputed),
@@ -373,11 +438,60 @@ void require_energy(const RetargetEntry& entry, const Source& source, const Reta
   if (options.motion == Offset{0, 0}) made.facts.add("recomputed_energy", recomputed);
 }
 
+/// The 8 bit image with fewer channels, or with an opaque one more.
+Image with_channels(Image image, int channels) {
+  if (channels == image.channels) return image;
+  Image result{
+      .size = image.size, .depth = image.depth, .channels = channels, .type = image.type, .samples = {}};
+  const auto pixels = static_cast<std::size_t>(image.shape().count());
+  result.samples.assign(pixels * static_cast<std::size_t>(channels), std::byte{255});
+  for (std::size_t i = 0; i < pixels; ++i) {
+    std::copy_n(
+        image.samples.begin() + static_cast<std::ptrdiff_t>(i * static_cast<std::size_t>(image.channels)),
+        std::min(channels, image.channels),
+        result.samples.begin() + static_cast<std::ptrdiff_t>(i * static_cast<std::size_t>(channels)));
+  }
+  return result;
+}
+
+/// One file: the tile of one motion, or the atlas of all, a slice for each slice of the source.
+Picture picture_of(const RetargetEntry& entry, std::size_t output, const Source& source,
+                   const std::vector<MadeTile>& tiles, const std::vector<TileRecord>& records) {
+  const RetargetOutput& file = entry.outputs.at(output);
+  const int side = 2 * entry.motion + 1;
+  const auto motions = static_cast<std::size_t>(side * side);
+  const bool is_tile = file.kind == RetargetOutput::Kind::tile;
+  const std::size_t one = motion_index(file.motion, entry.motion);
+  if (entry.volume) {
+    return {.image = with_channels(encode_tile(entry, output, tiles.at(one), source),
+                                   entry.output_channels(output)),
+            .slices = SliceKind::depth,
+            .tiles = {records.at(one)}};
+  }
+  Picture picture;
+  std::vector<Image> slices;
+  for (std::size_t first = 0; first < tiles.size(); first += motions) {
+    if (is_tile) {
+      slices.push_back(encode_tile(entry, output, tiles[first + one], source));
+      picture.tiles.push_back(records[first + one]);
+      continue;
+    }
+    std::vector<Image> all;
+    for (std::size_t i = first; i < first + motions; ++i)
+      all.push_back(encode_tile(entry, output, tiles[i], source));
+    slices.push_back(make_atlas(all, side));
+  }
+  picture.image = slices.size() == 1 ? std::move(slices.front()) : stack_slices(slices);
+  picture.image = with_channels(std::move(picture.image), entry.output_channels(output));
+  if (!is_tile) picture.tiles = records;
+  return picture;
+}
+
 }  // namespace
 
 Made RetargetEntry::make(const std::vector<Input>& inputs, const Execution& execution) const {
-  const Source source = source_of(inputs.at(0), channels_of(*this));
-  check_inputs({source.size()},
+  const Source source = source_of(inputs, channels_of(*this));
+  check_inputs({source.first().shape()},
                [&](std::string_view key, std::string what, std::string limit, std::string remedy) {
                  throw Error({.code = ErrorCode::invalid_input,
                               .what = fmt::format("{} {}", key, what),
@@ -389,46 +503,38 @@ Made RetargetEntry::make(const std::vector<Input>& inputs, const Execution& exec
   options.step = step_of(*this, source);
   Made made;
   made.facts.add("step", options.step);
-  made.facts.add("orbit_length", orbit_length(source.size(), options.step));
+  if (source.moves()) made.facts.add("orbit_length", orbit_length(source.size(), options.step));
+  if (source.depth() > 1) made.facts.add("slices", source.depth());
   if (anneals) made.facts.add("proposals", anneal.options.proposals);
   made.notes = source_notes(source, options);
-  std::vector<RetargetTile> tiles = anneals ? anneal_tiles(*this, source, execution)
-                                            : solve_motion_set(source.first(), options, motion, execution);
+  std::vector<MadeTile> tiles =
+      anneals ? anneal_tiles(*this, source, execution) : solve_tiles(*this, source, execution);
+  const int side = 2 * motion + 1, motions = side * side;
   for (std::size_t i = 0; i < tiles.size(); ++i) {
-    const int side = 2 * motion + 1, at = static_cast<int>(i);
+    const int at = static_cast<int>(i) % motions;
     options.motion = {at % side - motion, at / side - motion};
-    made.tiles.push_back(record_of(tiles[i], options.motion));
+    made.tiles.push_back(record_of(tiles[i].tile, options.motion));
     if (anneals) require_energy(*this, source, tiles[i], options, made);
   }
-  made.picture = [this, tiles = std::move(tiles), records = made.tiles](std::size_t output) {
-    const RetargetOutput& file = outputs.at(output);
-    const auto encode = [&](const RetargetTile& tile) {
-      return encode_moves(file.form == MoveForm::scatter ? tile.move : invert_moves(tile.move));
-    };
-    if (file.kind == RetargetOutput::Kind::tile) {
-      const std::size_t index = motion_index(file.motion, motion);
-      return Picture{.image = encode(tiles.at(index)), .tiles = {records.at(index)}};
-    }
-    std::vector<Image> all;
-    for (const RetargetTile& tile : tiles) all.push_back(encode(tile));
-    return Picture{.image = make_atlas(all, 2 * motion + 1), .tiles = records};
+  made.picture = [this, source, tiles = std::move(tiles), records = made.tiles](std::size_t output) {
+    return picture_of(*this, output, source, tiles, records);
   };
   return made;
 }
 
 void RetargetEntry::check_input_contents(const std::vector<Input>& inputs) const {
-  source_of(inputs.at(0), channels_of(*this));
+  source_of(inputs, channels_of(*this));
 }
 
 bool RetargetEntry::settle(const std::vector<Input>& inputs, const Execution& execution) {
   if (!anneals || anneal.seconds <= 0.0) return false;
-  *this = with_budget_found(*this, source_of(inputs.at(0), channels_of(*this)), execution);
+  *this = with_budget_found(*this, source_of(inputs, channels_of(*this)), execution);
   return true;
 }
 
 Made RetargetEntry::made_elsewhere(const std::vector<Input>& inputs, const RetargetTile& tile) const {
   const RetargetOutput& output = outputs.at(0);
-  const Source source = source_of(inputs.at(0), channels_of(*this));
+  const Source source = source_of(inputs, channels_of(*this));
   RetargetOptions options = problem;
   options.step = step_of(*this, source);
   options.motion = output.motion;
@@ -440,16 +546,18 @@ Made RetargetEntry::made_elsewhere(const std::vector<Input>& inputs, const Retar
                  .limit = "the figures of its moves on this source",
                  .remedy = "make it for this source and these options"});
   };
+  require(source.depth() == 1, "it is one tile, of a stack of slices");
   require(tile.move.size() == source.size(), "its size is not its source's");
   check_permutation(tile.move, options);
-  require(energy_of(*this, source, tile.move, options) == tile.energy, "its energy is not that of its moves");
+  require(energy_of(*this, source, 0, tile.move, {}, options) == tile.energy,
+          "its energy is not that of its moves");
   const Grid<Offset> identity(source.size(), options.motion);
-  require(energy_of(*this, source, identity, options) == tile.start_energy,
+  require(energy_of(*this, source, 0, identity, {}, options) == tile.start_energy,
           "its start energy is not the identity's");
   require(tile.lower_bound <= tile.energy, "its lower bound is above its energy");
   Made made;
   made.facts.add("step", options.step);
-  made.facts.add("orbit_length", orbit_length(source.size(), options.step));
+  if (source.moves()) made.facts.add("orbit_length", orbit_length(source.size(), options.step));
   made.tiles = {record_of(tile, options.motion)};
   made.notes = source_notes(source, options);
   const Image moves = encode_moves(output.form == MoveForm::scatter ? tile.move : invert_moves(tile.move));

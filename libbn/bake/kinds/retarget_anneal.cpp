@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bake/kinds/retarget_source.h"
 #include "bn/error.h"
 
@@ -32,14 +34,32 @@ auto naming_checkpoint(const fs::path& path, Body body) {
   }
 }
 
+/// Slices one below the other, as an AnnealProblem has a volume.
+Grid<std::int32_t> stacked(const Grid<std::int32_t>& volume) {
+  Grid<std::int32_t> stack(Extent{volume.width(), volume.height() * volume.depth()});
+  std::copy(volume.begin(), volume.end(), stack.begin());
+  return stack;
+}
+
 }  // namespace
 
 AnnealProblem anneal_problem(const RetargetEntry& entry, const Source& source) {
   const AnnealMethod& method = entry.anneal;
   AnnealProblem problem;
   for (std::size_t c = 0; c < source.levels.size(); ++c) {
-    problem.channels.push_back(
-        {.levels = source.levels[c].value, .weight = method.weights.empty() ? 1 : method.weights.at(c)});
+    FrameMasks masks{entry.volume ? stacked(source.levels[c].value) : Grid<std::int32_t>(), {}};
+    if (entry.volume && !source.to.empty()) masks.to = stacked(source.to[c].value);
+    if (!entry.volume) {
+      masks = frame_masks(source, 0, c);
+      if (source.moves()) masks.to = {};
+    }
+    problem.channels.push_back({.levels = std::move(masks.from),
+                                .weight = method.weights.empty() ? 1 : method.weights.at(c),
+                                .to = std::move(masks.to)});
+  }
+  if (entry.volume) {
+    problem.depth = source.depth();
+    problem.step_z = entry.step_z;
   }
   problem.retarget = entry.problem;
   problem.retarget.step = step_of(entry, source);
@@ -48,32 +68,32 @@ AnnealProblem anneal_problem(const RetargetEntry& entry, const Source& source) {
   return problem;
 }
 
-std::int64_t energy_of(const RetargetEntry& entry, const Source& source, const Grid<Offset>& move,
-                       const RetargetOptions& options) {
-  if (!entry.anneals) return retarget_energy(source.first(), move, options);
+std::int64_t energy_of(const RetargetEntry& entry, const Source& source, int z, const Grid<Offset>& move,
+                       const Grid<std::int8_t>& move_z, const RetargetOptions& options) {
+  if (!entry.anneals) return retarget_energy(frame_masks(source, z), move, options);
   AnnealProblem problem = anneal_problem(entry, source);
   problem.retarget = options;
-  return anneal_energy(problem, move);
+  return anneal_energy(problem, move, move_z);
 }
 
 std::vector<std::int64_t> anneal_bounds(const AnnealProblem& problem, int motion, double gap,
                                         const Execution& execution) {
   const std::size_t side = static_cast<std::size_t>(2 * motion + 1);
   std::vector<std::int64_t> bounds(side * side, 0);
-  if (problem.residual_sigma_px > 0.0) return bounds;
+  if (problem.residual_sigma_px > 0.0 || problem.depth > 1) return bounds;
   RetargetOptions options = problem.retarget;
   options.gap = gap;
   Execution silent = execution;
   silent.progress = {};
   for (const AnnealChannel& channel : problem.channels) {
-    const std::vector<RetargetTile> proofs = solve_motion_set(channel.levels, options, motion, silent);
+    const std::vector<RetargetTile> proofs = solve_motion_set(channel.masks(), options, motion, silent);
     for (std::size_t i = 0; i < bounds.size(); ++i) bounds[i] += channel.weight * proofs[i].lower_bound;
   }
   return bounds;
 }
 
-std::vector<RetargetTile> anneal_tiles(const RetargetEntry& entry, const Source& source,
-                                       const Execution& execution) {
+std::vector<MadeTile> anneal_tiles(const RetargetEntry& entry, const Source& source,
+                                   const Execution& execution) {
   const AnnealMethod& method = entry.anneal;
   const AnnealProblem problem = anneal_problem(entry, source);
   AnnealOptions options = method.options;
@@ -90,10 +110,10 @@ std::vector<RetargetTile> anneal_tiles(const RetargetEntry& entry, const Source&
   });
   // A certificate within 1 % comes soon.
   const std::vector<std::int64_t> bounds = anneal_bounds(problem, entry.motion, 0.01, execution);
-  std::vector<RetargetTile> tiles;
+  std::vector<MadeTile> tiles;
   for (std::size_t i = 0; i < results.size(); ++i) {
     results[i].tile.lower_bound = bounds[i];
-    tiles.push_back(std::move(results[i].tile));
+    tiles.push_back({std::move(results[i].tile), std::move(results[i].move_z)});
   }
   return tiles;
 }

@@ -36,19 +36,26 @@ class TileVerifier {
   void verify() {
     if (!checks_.attempt("recipe", [&] { return check_recipe(); })) return;
     const std::size_t count = metadata_.tiles.size();
-    std::vector<Grid<Offset>> moves(count);  // in scatter form
+    std::vector<MadeTile> moves(count);  // in scatter form
     const bool bijective = checks_.attempt("bijection", [&] {
       for_each_tile([&](std::size_t i, const RetargetOptions&) {
-        const Grid<Offset> stored = decode_moves(atlas_tile(image_, tile_size_, static_cast<int>(i)));
-        const Grid<Offset> inverse = invert_moves(stored);
-        moves[i] = entry_.outputs[0].form == MoveForm::gather ? inverse : stored;
+        const int motions = motions_per_slice(), at = static_cast<int>(i);
+        const Image tile =
+            entry_.volume ? image_ : atlas_tile(slice_of(image_, at / motions), tile_size_, at % motions);
+        moves[i] = decode_tile(entry_, 0, tile);
       });
       return fmt::format("{} of {} tiles", count, count);
     });
     if (!bijective) return;
     checks_.attempt("radius", [&] {
-      for_each_tile(
-          [&](std::size_t i, const RetargetOptions& options) { check_permutation(moves[i], options); });
+      for_each_tile([&](std::size_t i, const RetargetOptions& options) {
+        if (!entry_.volume) return check_permutation(moves[i].tile.move, options);
+        AnnealProblem shape;  // levels play no part in what a permutation may do
+        shape.channels = {{.levels = Grid<std::int32_t>(moves[i].tile.move.size())}};
+        shape.retarget = options;
+        shape.depth = image_.depth;
+        check_anneal_permutation(shape, moves[i].tile.move, moves[i].move_z);
+      });
       return fmt::format("every move within {} {}", options_.radius, name_of(options_.reach));
     });
     Source source;
@@ -86,9 +93,12 @@ class TileVerifier {
     const auto own_seed = static_cast<std::int64_t>(entry_.anneal.options.seed);
     if (entry_.anneals)
       expect(seed == own_seed, "seed", fmt::format("{}", own_seed), seed ? fmt::format("{}", *seed) : "none");
-    constexpr std::array<std::string_view, 10> kKnown = {"seed",           "step",       "radius", "reach",
-                                                         "metric",         "wrap",       "form",   "source",
-                                                         "source_channel", "source_hash"};
+    const auto step_z = facts.get<int>("step_z");
+    expect(step_z == (entry_.volume ? std::optional<int>(entry_.step_z) : std::nullopt), "step_z",
+           fmt::format("{}", entry_.step_z), step_z ? fmt::format("{}", *step_z) : "none");
+    constexpr std::array<std::string_view, 13> kKnown = {
+        "seed", "step",   "step_z",         "radius",      "reach", "metric", "wrap",
+        "form", "source", "source_channel", "source_hash", "to",    "to_hash"};
     for (const auto& [key, value] : facts) {
       if (std::find(kKnown.begin(), kKnown.end(), key) == kKnown.end())
         fail_check(fmt::format("{} is in the record and not in the recipe", key));
@@ -96,11 +106,13 @@ class TileVerifier {
     const bool is_tile = output.kind == RetargetOutput::Kind::tile;
     same_word("kind", is_tile ? "retarget-tile" : "retarget-atlas", metadata_.kind);
     const int side = is_tile ? 1 : 2 * entry_.motion + 1;
-    const int count = static_cast<int>(metadata_.tiles.size());
-    expect(count == side * side, "number of tiles", fmt::format("{}", side * side), fmt::format("{}", count));
+    const int count = static_cast<int>(metadata_.tiles.size()), motions = side * side;
+    const int wanted = entry_.volume ? 1 : motions * image_.depth;
+    expect(count == wanted, "number of tiles", fmt::format("{}", wanted), fmt::format("{}", count));
     for (int i = 0; i < count; ++i) {
       const Offset motion =
-          is_tile ? output.motion : Offset{i % side - entry_.motion, i / side - entry_.motion};
+          is_tile ? output.motion
+                  : Offset{i % motions % side - entry_.motion, i % motions / side - entry_.motion};
       const Offset recorded = metadata_.tiles[static_cast<std::size_t>(i)].motion;
       expect(motion == recorded, "motion", text_of(motion), text_of(recorded));
     }
@@ -123,10 +135,20 @@ class TileVerifier {
     if (!path || !channel || !hash) fail_check("the file names none");
     const std::vector<int> channels = channels_of(entry_);
     if (channels[0] != *channel) fail_check("the recipe reads another channel than the record says");
-    source = source_of(read_input(folder_ / *path, execution_), channels);
+    std::vector<Input> inputs = {read_input(folder_ / *path, execution_)};
+    const auto to_path = metadata_.facts.get<std::string>("to"),
+               to_hash = metadata_.facts.get<std::string>("to_hash");
+    const bool has_second = !entry_.to.empty() || !entry_.to_mask.empty();
+    if (has_second != to_path.has_value() || has_second != to_hash.has_value())
+      fail_check("the recipe and the record differ in the mask of the next frame");
+    if (to_path) inputs.push_back(read_input(folder_ / *to_path, execution_));
+    source = source_of(inputs, channels);
     if (source.hash != *hash)
       fail_check(fmt::format("{}: pixels have {}, recorded is {}", *path, source.hash, *hash));
-    if (source.size() != tile_size_) fail_check("the source and the tile differ in size");
+    if (to_hash && source.to_hash != *to_hash)
+      fail_check(fmt::format("{}: pixels have {}, recorded is {}", *to_path, source.to_hash, *to_hash));
+    if (source.size() != tile_size_ || source.depth() != image_.depth)
+      fail_check("the source and the tile differ in size");
     return fmt::format("{} {}", *path, source.hash);
   }
 
@@ -145,14 +167,18 @@ class TileVerifier {
     }
   }
 
-  std::string check_energies(const Source& source, const std::vector<Grid<Offset>>& moves) {
+  std::string check_energies(const Source& source, const std::vector<MadeTile>& moves) {
     std::int64_t least = metadata_.tiles[0].energy, most = least;
     for_each_tile([&](std::size_t i, const RetargetOptions& options) {
       const TileRecord& recorded = metadata_.tiles[i];
-      const std::int64_t energy = energy_of(entry_, source, moves[i], options);
+      const int z = static_cast<int>(i) / motions_per_slice();
+      const MadeTile& tile = moves[i];
+      const std::int64_t energy = energy_of(entry_, source, z, tile.tile.move, tile.move_z, options);
       if (energy != recorded.energy)
         fail_check(fmt::format("energy is {}, recorded is {}", energy, recorded.energy));
-      const std::int64_t start = energy_of(entry_, source, Grid<Offset>(tile_size_, options.motion), options);
+      const std::int64_t start =
+          energy_of(entry_, source, z, Grid<Offset>(tile.tile.move.size(), options.motion),
+                    Grid<std::int8_t>(tile.move_z.shape()), options);
       if (start != recorded.start_energy) {
         fail_check(fmt::format("start energy is {}, recorded is {}", start, recorded.start_energy));
       }
@@ -165,10 +191,9 @@ class TileVerifier {
   /// A recorded bound holds if a new proof reaches it. The new proof may stop at the recipe's gap;
   /// only a bound between that proof and its permutation's energy needs the full one.
   std::string check_bounds(const Source& source) {
-    if (entry_.anneals &&
-        (source.levels.size() > 1 || entry_.anneal.residual_sigma_px > 0.0 || !entry_.anneal.weights.empty()))
+    if (entry_.anneals && (source.levels.size() > 1 || entry_.anneal.residual_sigma_px > 0.0 ||
+                           !entry_.anneal.weights.empty() || entry_.volume))
       return check_anneal_bounds(anneal_problem(entry_, source));
-    const Grid<std::int32_t>& levels = source.first();
     std::vector<std::string> failures(metadata_.tiles.size());
     std::int64_t optimal = 0;
     for (const TileRecord& tile : metadata_.tiles) optimal += tile.energy == tile.lower_bound;
@@ -181,6 +206,7 @@ class TileVerifier {
       const TileRecord& recorded = metadata_.tiles[i];
       RetargetOptions options = options_;
       options.motion = recorded.motion;
+      const FrameMasks levels = frame_masks(source, static_cast<int>(index) / motions_per_slice());
       RetargetTile proof = solve_retarget(levels, options, single);
       if (recorded.lower_bound > proof.lower_bound && recorded.lower_bound <= proof.energy) {
         options.gap = 0.0;
@@ -216,8 +242,13 @@ class TileVerifier {
                                metadata_.tiles[i].lower_bound, bound));
       }
     });
-    return problem.residual_sigma_px > 0.0 ? "0, as no energy is below it"
-                                           : "proven again, channel by channel";
+    return problem.residual_sigma_px > 0.0 || problem.depth > 1 ? "0, as no energy is below it"
+                                                                : "proven again, channel by channel";
+  }
+
+  int motions_per_slice() const {
+    const bool is_tile = entry_.outputs.at(0).kind == RetargetOutput::Kind::tile;
+    return is_tile ? 1 : (2 * entry_.motion + 1) * (2 * entry_.motion + 1);
   }
 
   const RetargetEntry& entry_;

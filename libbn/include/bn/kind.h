@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -62,16 +63,17 @@ struct Cost {
 
 /// A texture that an entry is made from: the file of another entry, or any image.
 struct Input {
-  std::filesystem::path path;  ///< where it was read
+  std::filesystem::path path;  ///< where it was read: a file, a folder of slices or a pattern (bn/volume.h)
   std::string hash;            ///< pixel_hash() of `image`
-  Image image;
-  bool is_mask = false;  ///< its metadata say that this toolkit made it as a mask
+  Image image;                 ///< of several slices where it is a volume
+  bool is_mask = false;        ///< its metadata say that this toolkit made it as a mask
 };
 
 /// One file as it is to be written: the picture, and figures of it that making it gave.
 struct Picture {
-  Image image;
-  std::vector<TileRecord> tiles = {};  ///< of retarget tiles
+  Image image;                           ///< a volume goes to a path as write_volume() says
+  SliceKind slices = SliceKind::layers;  ///< what slices are, for .ktx2 and .dds
+  std::vector<TileRecord> tiles = {};    ///< of retarget tiles
 };
 
 /// What making an entry gives.
@@ -139,15 +141,18 @@ class Entry {
   /// Which output of `source`, an entry that an option of this one names, is read. Errors: invalid_input (it
   /// has no fitting one).
   virtual std::size_t input_output(const Entry& source) const;
-  /// Complains of inputs whose size does not suit. `sizes` are those of the inputs that are known.
-  virtual void check_inputs(const std::vector<Extent>&, const Complain&) const {}
+  /// Complains of inputs whose shape does not suit. `shapes` are those of the inputs that are known.
+  virtual void check_inputs(const std::vector<Shape>&, const Complain&) const {}
   /// Errors: invalid_input, of inputs without what is read of them (no such channel, NaN).
   virtual void check_input_contents(const std::vector<Input>&) const {}
 
   // --- making it -----------------------------------------------------------------------------------
-  /// The size of what other entries read from this one, where the options alone decide it.
-  virtual Extent size() const { return {}; }
-  virtual Cost cost(const std::vector<Extent>& input_sizes, const Execution& execution) const = 0;
+  /// The shape of what other entries read from this one, where the options alone decide it.
+  virtual std::optional<Shape> shape() const { return std::nullopt; }
+  /// Slices of an output; more than one is a volume, whose path has a place for a number (slice_%03d.png) or
+  /// an extension that holds volumes.
+  virtual int output_depth(std::size_t, const std::vector<Shape>&) const { return 1; }
+  virtual Cost cost(const std::vector<Shape>& input_shapes, const Execution& execution) const = 0;
   /// Turns what no recipe can say, a budget by the clock, into what it can. Returns whether anything changed.
   virtual bool settle(const std::vector<Input>&, const Execution&) { return false; }
   virtual Made make(const std::vector<Input>& inputs, const Execution& execution) const = 0;

@@ -37,8 +37,8 @@ class MaskEntry : public EntryOf<MaskEntry, MaskOutput> {
   Options output_options(std::size_t output) override;
   SampleType output_type(std::size_t output) const override { return outputs.at(output).type; }
   int output_channels(std::size_t) const override { return channels; }
-  Extent size() const override { return void_and_cluster.size; }
-  Cost cost(const std::vector<Extent>& input_sizes, const Execution& execution) const override;
+  std::optional<Shape> shape() const override { return void_and_cluster.size; }
+  Cost cost(const std::vector<Shape>& input_shapes, const Execution& execution) const override;
   Made make(const std::vector<Input>& inputs, const Execution& execution) const override;
   Metadata metadata(std::size_t output, const std::vector<Input>& inputs,
                     const std::filesystem::path& folder) const override;
@@ -81,7 +81,8 @@ struct AnnealMethod {
   AnnealTrace* trace = nullptr;  ///< of one tile
 };
 
-/// `[[retarget]]`: the retarget tiles of one source for every motion within a range.
+/// `[[retarget]]`: the retarget tiles of one source for every motion within a range. A source of several
+/// slices has as many tiles for each motion, the slices of its files.
 class RetargetEntry : public EntryOf<RetargetEntry, RetargetOutput> {
  public:
   /// The source: the name of a mask of this recipe ...
@@ -89,6 +90,10 @@ class RetargetEntry : public EntryOf<RetargetEntry, RetargetOutput> {
   /// ... or an image file, relative to Recipe::folder, and its channel. One of the two is empty.
   std::string image;
   int channel = 0;
+  /// The mask of the next frame, where it is not the source moved by the step: an image file, or the name of
+  /// a mask of this recipe. Both empty: a picture moves, and of a stack of slices each is followed by the
+  /// next one, the last by the first.
+  std::string to, to_mask;
   /// For a mask: the sample type whose levels the tiles are optimised for, which is what the
   /// renderer reads; the mask must have an output of it. An image has its own type.
   SampleType levels = SampleType::u8;
@@ -96,7 +101,9 @@ class RetargetEntry : public EntryOf<RetargetEntry, RetargetOutput> {
   RetargetOptions problem = {};     ///< step and motion are ignored
   bool anneals = false;             ///< by `anneal`; else the exact solver, with problem.gap
   AnnealMethod anneal = {};
-  int motion = 0;  ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
+  bool volume = false;  ///< of a stack, annealed: seeds move between its slices too
+  int step_z = 0;       ///< slices that a volume moves from frame to frame
+  int motion = 0;       ///< range 0..8: (2 motion + 1)^2 tiles; 4 gives the 81 variants
 
   const Kind& kind() const override;
   Options options() override;
@@ -104,11 +111,12 @@ class RetargetEntry : public EntryOf<RetargetEntry, RetargetOutput> {
   void default_output(std::size_t output) override;
   Options output_options(std::size_t output) override;
   SampleType output_type(std::size_t) const override { return SampleType::u8; }
-  int output_channels(std::size_t) const override { return 3; }
+  int output_channels(std::size_t output) const override;
   std::size_t input_output(const Entry& source) const override;
-  void check_inputs(const std::vector<Extent>& sizes, const Complain& complain) const override;
+  void check_inputs(const std::vector<Shape>& shapes, const Complain& complain) const override;
   void check_input_contents(const std::vector<Input>& inputs) const override;
-  Cost cost(const std::vector<Extent>& input_sizes, const Execution& execution) const override;
+  int output_depth(std::size_t output, const std::vector<Shape>& input_shapes) const override;
+  Cost cost(const std::vector<Shape>& input_shapes, const Execution& execution) const override;
   bool settle(const std::vector<Input>& inputs, const Execution& execution) override;
   Made make(const std::vector<Input>& inputs, const Execution& execution) const override;
   /// What make() would give, of a tile that was made before, after checking its permutation and its energies.
