@@ -44,7 +44,7 @@ void EnergyField::update_minima() {
   }
 }
 
-BlockKernel::BlockKernel(const GaussianKernel& kernel, int sign)
+BlockKernel::BlockKernel(const PixelKernel& kernel, int sign)
     : radius_(kernel.radius()),
       max_span_(span(kBlockSide - 1)),
       rows_(kBlockSide * max_span_ + kBlockSide - 1) {

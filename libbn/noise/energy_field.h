@@ -61,7 +61,7 @@ struct EnergyField {
 class BlockKernel {
  public:
   /// `sign` is 1 for a kernel that is added, -1 for one that is taken away.
-  BlockKernel(const GaussianKernel& kernel, int sign);
+  BlockKernel(const PixelKernel& kernel, int sign);
 
   int radius() const { return radius_; }
   /// Blocks that the kernel touches along one axis.

@@ -46,7 +46,7 @@ GaussianKernel::GaussianKernel(double sigma_px, int cutoff_px) {
   }
 }
 
-std::int32_t GaussianKernel::weight(int x, int y) const {
+std::int32_t PixelKernel::weight(int x, int y) const {
   if (std::abs(x) > radius_ || std::abs(y) > radius_) return 0;
   return weights_[static_cast<std::size_t>((y + radius_) * (2 * radius_ + 1) + x + radius_)];
 }

@@ -1,4 +1,4 @@
-// The Gaussian through which two pixels of a mask see each other, as integers.
+// The kernel through which two pixels of a mask see each other, as integers; most often a Gaussian.
 //
 // Integer weights make adding and removing exact, so energies depend on the set of pixels alone and
 // never on the order in which they came. The scale is chosen so that everything that is ever added up
@@ -21,14 +21,9 @@ inline constexpr std::int32_t kStartEnergyLimit = 1 << 12;
 /// The largest kernel radius in pixels; a cut-off of 0 stops here too.
 inline constexpr int kMaxKernelRadius = 64;
 
-/// exp(-(x² + y²) / (2 sigma²)), scaled and rounded, within a disc. Its sum plus kStartEnergyLimit
-/// stays below kSetMark.
-class GaussianKernel {
+/// Weights by distance. Their sum plus kStartEnergyLimit stays below kSetMark.
+class PixelKernel {
  public:
-  /// `cutoff_px` is the radius of the disc, 0 for kMaxKernelRadius. Arguments are checked by the
-  /// caller.
-  GaussianKernel(double sigma_px, int cutoff_px);
-
   /// The largest |x| or |y| of a weight that is not zero.
   int radius() const { return radius_; }
   /// The weight at a distance; zero outside -radius()..radius().
@@ -36,10 +31,20 @@ class GaussianKernel {
   /// The sum of all weights: the energy that all set pixels together give each pixel.
   std::int32_t sum() const { return sum_; }
 
- private:
+ protected:
+  PixelKernel() = default;
+
   int radius_ = 0;
   std::int32_t sum_ = 0;
   std::vector<std::int32_t> weights_;  // by (y + radius_) * (2 * radius_ + 1) + x + radius_
+};
+
+/// exp(-(x² + y²) / (2 sigma²)), scaled and rounded, within a disc.
+class GaussianKernel : public PixelKernel {
+ public:
+  /// `cutoff_px` is the radius of the disc, 0 for kMaxKernelRadius. Arguments are checked by the
+  /// caller.
+  GaussianKernel(double sigma_px, int cutoff_px);
 };
 
 }  // namespace bn::noise

@@ -33,6 +33,7 @@
 #include "core/progress.h"
 #include "core/refuse.h"
 #include "noise/fill_tile.h"
+#include "noise/filling_order.h"
 #include "noise/void_order.h"
 
 namespace bn {
@@ -84,23 +85,13 @@ class StartEnergies {
 
 /// Calls body(x, y, index, start energy) for every pixel, rows in parallel.
 template <class Body>
-void for_each_pixel(const VoidAndClusterOptions& options, const Execution& execution, const Body& body) {
-  const auto [width, height] = options.size;
+void for_each_pixel(Extent size, std::uint64_t seed, const Execution& execution, const Body& body) {
+  const auto [width, height] = size;
   parallel_for(execution, height, [&](std::int64_t y) {
     auto index = static_cast<std::size_t>(y * width);
-    StartEnergies start(options.seed, index);
+    StartEnergies start(seed, index);
     for (int x = 0; x < width; ++x, ++index) body(x, static_cast<int>(y), index, start.next());
   });
-}
-
-/// Phases 1 and 3: the place of each pixel in the order of largest voids, from an empty torus to a full
-/// one.
-Grid<std::uint32_t> filling_order(const VoidAndClusterOptions& options, const GaussianKernel& kernel,
-                                  const Execution& execution, ProgressMeter& meter) {
-  EnergyField field(options.size, kernel.radius(), kSetMark);
-  for_each_pixel(options, execution,
-                 [&](int x, int y, std::size_t, std::int32_t start) { field.at(x, y) = start; });
-  return void_order(std::move(field), BlockKernel(kernel, 1), options.size.area(), execution, meter);
 }
 
 /// Phase 2: gives the pixels whose rank is below `initial` the ranks in which clusters leave them last.
@@ -111,9 +102,10 @@ void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel&
   // carry the mark.
   const std::int32_t all = kernel.sum() + kStartEnergyLimit - 1;
   EnergyField field(options.size, kernel.radius(), kSetMark + all);
-  for_each_pixel(options, execution, [&](int x, int y, std::size_t index, std::int32_t start) {
-    field.at(x, y) -= start + (ranks[index] < initial ? kSetMark : 0);
-  });
+  for_each_pixel(options.size, options.seed, execution,
+                 [&](int x, int y, std::size_t index, std::int32_t start) {
+                   field.at(x, y) -= start + (ranks[index] < initial ? kSetMark : 0);
+                 });
   const BlockKernel negative(kernel, -1);
   for (int y = 0; y < options.size.height; ++y) {
     throw_if_stopped(execution);
@@ -130,23 +122,33 @@ void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel&
 
 }  // namespace
 
+Grid<std::uint32_t> noise::filling_order(Extent size, const PixelKernel& kernel, std::uint64_t seed,
+                                         const Execution& execution, ProgressMeter& meter) {
+  EnergyField field(size, kernel.radius(), kSetMark);
+  for_each_pixel(size, seed, execution,
+                 [&](int x, int y, std::size_t, std::int32_t start) { field.at(x, y) = start; });
+  return void_order(std::move(field), BlockKernel(kernel, 1), size.area(), execution, meter);
+}
+
+std::uint64_t noise::filling_order_bytes(Extent size) {
+  // Energies and ranks, 4 bytes for each that is ranked, and what does not grow with the mask.
+  constexpr std::uint64_t kConstantBytes = std::uint64_t{1} << 20;
+  return EnergyField::bytes(size) + 8 * static_cast<std::uint64_t>(size.area()) + kConstantBytes;
+}
+
 Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const Execution& execution) {
   check(options);
   thread_count(execution);
   const auto count = static_cast<std::uint64_t>(options.size.area());
   const auto initial =
       static_cast<std::uint32_t>(std::floor(options.initial_density * static_cast<double>(count) + 0.5));
-  // Energies and ranks, the latter in either phase, 4 bytes for each that is ranked, and what does not
-  // grow with the mask.
-  constexpr std::uint64_t kConstantBytes = std::uint64_t{1} << 20;
-  const std::uint64_t filling = 8 * count;
-  const std::uint64_t removing = initial == 0 ? 0 : 8 * count + std::uint64_t{4} * initial;
-  check_memory(execution, EnergyField::bytes(options.size) + std::max(filling, removing) + kConstantBytes,
+  // Phase 2 keeps the ranks of phase 1, and needs as much for each that is ranked anew.
+  check_memory(execution, filling_order_bytes(options.size) + std::uint64_t{4} * initial,
                "void-and-cluster mask");
 
   ProgressMeter meter(execution, count + initial);
   const GaussianKernel kernel(options.sigma_px, options.cutoff_px);
-  Grid<std::uint32_t> ranks = filling_order(options, kernel, execution, meter);
+  Grid<std::uint32_t> ranks = filling_order(options.size, kernel, options.seed, execution, meter);
   if (initial > 0) rank_by_removal(options, kernel, initial, ranks, execution, meter);
   meter.finish();
   return ranks;

@@ -1,0 +1,297 @@
+// Filling the largest voids of a volume, in any order that gives what one at a time would give.
+//
+// The rule is that of fill_tile.cpp: energies only grow, so a voxel that is the least (energy, index) of all
+// unset voxels in its reach may be set at once, and sorting by (energy when set, index) restores the
+// sequential order. Here columns are asked: a column's least voxel *leads* if it comes before the least
+// voxels of all columns in the reach of the kernel.
+//
+// Leading voxels are found by walking downhill. From a start one goes to the least voxel in its reach, from
+// there to the least in that one's reach, and so on; energies fall along the way, so it ends at a voxel that
+// leads. That is set, and the one before, which waited for it, looks again. Each look either sets a voxel or
+// adds one to the way that will be set, so there are two looks a voxel, and they are at columns that the last
+// additions have brought into the cache. A way that leaves the region is given up: its end belongs to another
+// visit.
+//
+// Invariant. The keys (energy, index) along the way fall, and those further back can only have grown since;
+// so no column is on it twice.
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "noise/fill_columns.cpp"
+#include <hwy/foreach_target.h>
+// foreach_target.h must come first.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include "noise/add_column-inl.h"
+#include "noise/fill_columns.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace bn::noise {
+namespace HWY_NAMESPACE {
+namespace {
+
+struct Column {
+  int x;
+  int y;
+  friend bool operator==(const Column&, const Column&) = default;
+};
+
+/// Looks for the least voxels around columns.
+class Surroundings {
+ public:
+  template <class Kernel>
+  Surroundings(Extent columns, const Kernel& kernel)
+      : columns_(columns),
+        first_x_(kernel.first_x),
+        first_y_(kernel.first_y),
+        width_(kernel.last_x - kernel.first_x + 1),
+        height_(kernel.last_y - kernel.first_y + 1),
+        copy_stride_(std::max(width_, kLanes)),
+        copy_(static_cast<std::size_t>(copy_stride_ * height_), kFullColumn) {}
+
+  /// Shows the columns that (x, y) has in reach. Valid until they change.
+  HWY_INLINE void look(const std::int32_t* least, Column c) {
+    x_ = c.x + first_x_;
+    y_ = c.y + first_y_;
+    if (x_ >= 0 && y_ >= 0 && x_ + width_ <= columns_.width && y_ + height_ <= columns_.height &&
+        width_ >= kLanes) {
+      view_ = least + std::int64_t{y_} * columns_.width + x_;
+      stride_ = columns_.width;
+    } else {
+      copy(least);
+    }
+  }
+
+  HWY_INLINE std::int32_t least() const {
+    const D d;
+    auto least = hn::Set(d, kFullColumn);
+    const std::int32_t* row = view_;
+    for (int y = 0; y < height_; ++y, row += stride_) {
+      for (int x = 0; x < width_ - kLanes; x += kLanes) least = hn::Min(least, hn::LoadU(d, row + x));
+      least = hn::Min(least, hn::LoadU(d, row + last_vector()));
+    }
+    return hn::GetLane(hn::MinOfLanes(d, least));
+  }
+
+  /// Calls body(column) for the columns whose least energy is `energy`, row by row, until it returns true.
+  /// Some may come twice.
+  template <class Body>
+  HWY_INLINE void find(std::int32_t energy, const Body& body) const {
+    const D d;
+    const auto wanted = hn::Set(d, energy);
+    const std::int32_t* row = view_;
+    for (int y = 0; y < height_; ++y, row += stride_) {
+      for (int x = 0;; x += kLanes) {
+        x = std::min(x, last_vector());
+        if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Eq(hn::LoadU(d, row + x), wanted)))) {
+          for (int i = x; i < x + kLanes && i < width_; ++i) {
+            if (row[i] == energy &&
+                body(Column{wrap_once(x_ + i, columns_.width), wrap_once(y_ + y, columns_.height)}))
+              return;
+          }
+        }
+        if (x == last_vector()) break;
+      }
+    }
+  }
+
+ private:
+  using D = hn::CappedTag<std::int32_t, 8>;
+  static constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
+
+  int last_vector() const { return std::max(width_ - kLanes, 0); }
+  static int wrap_once(int value, int period) {
+    return value < 0 ? value + period : value >= period ? value - period : value;
+  }
+
+  /// Across a seam, or less than a vector wide.
+  HWY_NOINLINE void copy(const std::int32_t* least) {
+    std::int32_t* to = copy_.data();
+    for (int y = 0; y < height_; ++y, to += copy_stride_) {
+      const std::int32_t* row = least + std::int64_t{wrap_once(y_ + y, columns_.height)} * columns_.width;
+      const int from = wrap_once(x_, columns_.width);
+      const int until_seam = std::min(width_, columns_.width - from);
+      std::copy_n(row + from, until_seam, to);
+      std::copy_n(row, width_ - until_seam, to + until_seam);
+    }
+    view_ = copy_.data();
+    stride_ = copy_stride_;
+  }
+
+  const Extent columns_;
+  const int first_x_, first_y_;
+  const int width_, height_;
+  const int copy_stride_;
+  std::vector<std::int32_t> copy_;
+  const std::int32_t* view_ = nullptr;
+  std::ptrdiff_t stride_ = 0;
+  int x_ = 0, y_ = 0;  // of the upper left column, perhaps outside the torus
+};
+
+template <class D>
+class ColumnFiller {
+ public:
+  using Lane = hn::TFromD<D>;
+
+  ColumnFiller(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel, const ColumnRect& region,
+               std::uint32_t* energy_when_set)
+      : field_(field),
+        adder_(field, kernel),
+        around_(field.columns(), kernel),
+        energy_when_set_(energy_when_set),
+        region_(region) {}
+
+  std::int64_t run(const ColumnVisit& visit) {
+    const auto [width, height] = field_.columns();
+    std::int64_t count = 0;
+    for (int pass = 0; pass < visit.passes; ++pass) {
+      const int moved = visit.moves * pass / visit.passes;
+      if (region_.width < width) region_.left = wrap(visit.region.left - moved, width);
+      if (region_.height < height) region_.top = wrap(visit.region.top - moved, height);
+      count += pass_over(visit.phase + pass);
+    }
+    return count;
+  }
+
+ private:
+  /// Every so many columns is a start, along either axis; others in turn.
+  static constexpr int kStartStep = 4;
+
+  std::int64_t pass_over(int phase) {
+    std::int64_t count = 0;
+    const auto [width, height] = field_.columns();
+    for (int y = phase / kStartStep % kStartStep; y < region_.height; y += kStartStep) {
+      for (int x = phase % kStartStep; x < region_.width; x += kStartStep) {
+        count += force({wrap(region_.left + x, width), wrap(region_.top + y, height)});
+      }
+    }
+    return count;
+  }
+
+  std::int64_t index(Column c) const { return std::int64_t{c.y} * field_.columns().width + c.x; }
+  std::int32_t least(Column c) const { return field_.least[static_cast<std::size_t>(index(c))]; }
+
+  bool in_region(Column c) const {
+    const auto [width, height] = field_.columns();
+    return wrap(c.x - region_.left, width) < region_.width &&
+           wrap(c.y - region_.top, height) < region_.height;
+  }
+
+  /// Sets the least voxel of a column, and what must come before it; returns how many were set.
+  std::int64_t force(Column start) {
+    std::int64_t count = 0;
+    way_.assign(1, start);
+    while (!way_.empty()) {
+      const Column last = way_.back();
+      if (least(last) == kFullColumn) break;
+      const Column first = first_in_reach(last);
+      if (first == last) {
+        set(last);
+        ++count;
+        way_.pop_back();
+      } else if (in_region(first)) {
+        way_.push_back(first);
+      } else {
+        break;
+      }
+    }
+    return count;
+  }
+
+  /// The column in reach whose least voxel comes first, or one whose least voxel comes before that of `c`.
+  HWY_INLINE Column first_in_reach(Column c) {
+    around_.look(field_.least.data(), c);
+    const std::int32_t energy = around_.least();
+    Column found = c;
+    if (energy < least(c)) {
+      around_.find(energy, [&](Column other) {
+        found = other;
+        return true;
+      });
+      return found;
+    }
+    around_.find(energy, [&](Column other) {
+      if (HWY_UNLIKELY(other != found) && before(other, found)) found = other;
+      return false;
+    });
+    return found;
+  }
+
+  /// Of two columns of the same least energy, whether the first has it at the lower index.
+  HWY_NOINLINE bool before(Column a, Column b) const {
+    const int slice_a = least_slice(a);
+    const int slice_b = least_slice(b);
+    if (slice_a != slice_b) return slice_a < slice_b;
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+  }
+
+  HWY_INLINE int least_slice(Column c) const {
+    const auto at = static_cast<std::size_t>(index(c));
+    return adder_.find_slice(index(c), static_cast<Lane>(field_.least[at] - field_.base[at]));
+  }
+
+  HWY_INLINE void set(Column c) {
+    const int slice = least_slice(c);
+    const std::int64_t at = index(c);
+    energy_when_set_[slice * field_.columns().area() + at] = static_cast<std::uint32_t>(least(c));
+    field_.column(at)[slice] = Lanes<Lane>::kSet;
+    adder_.add(c.x, c.y, slice);
+    adder_.update(at);
+  }
+
+  ColumnField<Lane>& field_;
+  ColumnAdder<D> adder_;
+  Surroundings around_;
+  std::uint32_t* const energy_when_set_;
+  ColumnRect region_;
+  std::vector<Column> way_;
+};
+
+template <class Lane, int kCap>
+using Lanes16 = hn::CappedTag<Lane, kCap>;
+
+std::int64_t fill_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
+                               const ColumnVisit& visit, std::uint32_t* energy_when_set) {
+  const auto fill = [&](auto d) {
+    return ColumnFiller<decltype(d)>(field, kernel, visit.region, energy_when_set).run(visit);
+  };
+  if (field.stride() % 32 == 0) return fill(hn::CappedTag<std::uint16_t, 32>());
+  if (field.stride() % 16 == 0) return fill(hn::CappedTag<std::uint16_t, 16>());
+  return fill(hn::CappedTag<std::uint16_t, 8>());
+}
+
+std::int64_t fill_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
+                               const ColumnVisit& visit, std::uint32_t* energy_when_set) {
+  using D = hn::CappedTag<std::int32_t, 8>;
+  return ColumnFiller<D>(field, kernel, visit.region, energy_when_set).run(visit);
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace bn::noise
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace bn::noise {
+namespace {
+HWY_EXPORT(fill_16_bits_here);
+HWY_EXPORT(fill_32_bits_here);
+}  // namespace
+
+template <>
+std::int64_t fill_columns(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
+                          const ColumnVisit& visit, std::uint32_t* energy_when_set) {
+  return HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(field, kernel, visit, energy_when_set);
+}
+
+template <>
+std::int64_t fill_columns(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
+                          const ColumnVisit& visit, std::uint32_t* energy_when_set) {
+  return HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(field, kernel, visit, energy_when_set);
+}
+
+}  // namespace bn::noise
+#endif  // HWY_ONCE
