@@ -22,6 +22,8 @@ std::string placeholder_of(const Option& option) {
       return option.names_file ? "FILE" : "TEXT";
     case OptionType::choice:
       return fmt::format("{}", fmt::join(option.words, "|"));
+    case OptionType::measured:
+      return "FILTER";
     case OptionType::size:
       return "WIDTHxHEIGHT";
     case OptionType::shape:
@@ -46,6 +48,8 @@ std::string allowed_of(const Option& option) {
     case OptionType::text:
     case OptionType::choice:
       return "";
+    case OptionType::measured:
+      return allowed_text(option);
     case OptionType::size:
     case OptionType::shape:
       return fmt::format("each {} {}", whole(), option.unit);

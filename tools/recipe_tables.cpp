@@ -21,9 +21,10 @@ std::string rows_of(const Options& options) {
     std::string help = option.help;
     if (!option.needs.empty()) help += fmt::format(" Only with {}.", option.needs);
     for (const std::string& former : option.former) help += fmt::format(" Formerly `{}`.", former);
-    std::string allowed = option.names_file            ? "path"
-                          : !option.names_kind.empty() ? fmt::format("name of a [[{}]]", option.names_kind)
-                                                       : allowed_text(option);
+    std::string allowed = option.names_file ? "path"
+                          : !option.names_kinds.empty()
+                              ? fmt::format("name of a [[{}]]", fmt::join(option.names_kinds, "]] or [["))
+                              : allowed_text(option);
     if (!option.unit.empty()) allowed += " " + option.unit;
     text += fmt::format("| `{}` | {} | {} | {} |\n", option.key, cell(allowed), cell(initial), cell(help));
   }

@@ -27,7 +27,7 @@ SheetSet view_of(const Recipe& recipe, const RetargetEntry& entry, const JobReco
   const Levels& levels = source.levels[0];
   FrameMasks masks = frame_masks(source, 0);  // of a stack its first slice
   const Extent size = levels.value.size();
-  const auto mask = std::dynamic_pointer_cast<const MaskEntry>(find_entry(recipe, "mask", entry.mask));
+  const auto mask = std::dynamic_pointer_cast<const MaskEntry>(find_entry(recipe, {"mask"}, entry.mask));
   SheetSet view;
   view.name = entry.name;
   view.levels = std::move(masks.from);

@@ -14,7 +14,7 @@ void collect(const Recipe& recipe, const Entry& entry, std::vector<const Entry*>
   path.push_back(&entry);
   for (const InputName& input : input_names(entry)) {
     if (input.is_file()) continue;
-    const auto source = find_entry(recipe, input.kind, input.text);
+    const auto source = find_entry(recipe, input);
     if (!source || std::find(found.begin(), found.end(), source) != found.end()) continue;
     if (std::find(path.begin(), path.end(), source.get()) != path.end()) continue;
     collect(recipe, *source, path, found);
@@ -29,17 +29,19 @@ std::vector<InputName> input_names(const Entry& entry) {
   std::vector<InputName> names;
   const Options options = options_of(entry);
   for (const Option& option : options.list()) {
-    if (option.names_kind.empty() && !option.names_file) continue;
+    if (option.names_kinds.empty() && !option.names_file) continue;
     const Value value = option.get();
     const auto* text = std::get_if<std::string>(&value);
-    if (text) names.push_back({.key = option.key, .kind = option.names_kind, .text = *text});
+    if (text) names.push_back({.key = option.key, .kinds = option.names_kinds, .text = *text});
   }
   return names;
 }
 
-std::shared_ptr<const Entry> find_entry(const Recipe& recipe, std::string_view kind, std::string_view name) {
+std::shared_ptr<const Entry> find_entry(const Recipe& recipe, const std::vector<std::string>& kinds,
+                                        std::string_view name) {
   for (const auto& entry : recipe.entries) {
-    if (entry->name == name && entry->kind().table == kind) return entry;
+    const bool fits = std::find(kinds.begin(), kinds.end(), entry->kind().table) != kinds.end();
+    if (fits && entry->name == name) return entry;
   }
   return nullptr;
 }
@@ -59,10 +61,10 @@ std::vector<std::filesystem::path> input_paths(const Recipe& recipe, const Entry
       paths.push_back(recipe.folder / input.text);
       continue;
     }
-    const auto source = find_entry(recipe, input.kind, input.text);
+    const auto source = find_entry(recipe, input);
     if (!source) {
       throw Error({.code = ErrorCode::invalid_input,
-                   .what = "there is no " + input.kind + " '" + input.text + "'",
+                   .what = "there is no " + input.kinds.front() + " '" + input.text + "'",
                    .where = entry.name,
                    .limit = "",
                    .remedy = "add it to the recipe"});
@@ -111,11 +113,11 @@ std::shared_ptr<const Entry> entry_in_cycle(const Recipe& recipe) {
   for (const auto& entry : recipe.entries) {
     for (const auto& source : input_entries(recipe, *entry)) {
       for (const InputName& input : input_names(*source)) {
-        if (!input.is_file() && find_entry(recipe, input.kind, input.text) == entry) return entry;
+        if (!input.is_file() && find_entry(recipe, input) == entry) return entry;
       }
     }
     for (const InputName& input : input_names(*entry)) {
-      if (!input.is_file() && find_entry(recipe, input.kind, input.text) == entry) return entry;
+      if (!input.is_file() && find_entry(recipe, input) == entry) return entry;
     }
   }
   return nullptr;

@@ -14,17 +14,21 @@ namespace bn::baking {
 
 /// One input of an entry, as its options name it: another entry of the recipe, or a file.
 struct InputName {
-  std::string key;   ///< of the option
-  std::string kind;  ///< of the entry, its table; empty for a file
-  std::string text;  ///< the entry's name, or the path
-  bool is_file() const { return kind.empty(); }
+  std::string key;                 ///< of the option
+  std::vector<std::string> kinds;  ///< of the entry, their tables; empty for a file
+  std::string text;                ///< the entry's name, or the path
+  bool is_file() const { return kinds.empty(); }
 };
 
 /// In the order of the options.
 std::vector<InputName> input_names(const Entry& entry);
 
-/// Null if there is none of this name and kind.
-std::shared_ptr<const Entry> find_entry(const Recipe& recipe, std::string_view kind, std::string_view name);
+/// Null if there is none of this name and of one of these kinds.
+std::shared_ptr<const Entry> find_entry(const Recipe& recipe, const std::vector<std::string>& kinds,
+                                        std::string_view name);
+inline std::shared_ptr<const Entry> find_entry(const Recipe& recipe, const InputName& input) {
+  return find_entry(recipe, input.kinds, input.text);
+}
 
 /// The entries that `entry` is made from, directly or through others, each once, those that others build on
 /// first.

@@ -19,7 +19,7 @@ std::string recipe_of(const Recipe& recipe, const std::shared_ptr<const Entry>& 
     std::size_t output = 0;
     for (const auto& user : users) {
       for (const InputName& input : input_names(*user)) {
-        if (find_entry(recipe, input.kind, input.text) == source) output = user->input_output(*source);
+        if (find_entry(recipe, input) == source) output = user->input_output(*source);
       }
     }
     own.entries.push_back(source->with_output(output));

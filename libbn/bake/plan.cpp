@@ -114,7 +114,7 @@ class Planner {
         shapes.push_back(inputs.back().image.shape());
         continue;
       }
-      const auto source = find_entry(recipe_, names[i].kind, names[i].text);
+      const auto source = find_entry(recipe_, names[i]);
       if (const auto shape = source->shape()) shapes.push_back(*shape);
       const PlannedJob* made_by = job_of(*source);
       can_look = can_look && made_by && made_by->up_to_date;

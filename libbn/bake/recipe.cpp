@@ -269,17 +269,21 @@ class RecipeParser {
 
   void check_reference(const Entry& entry, const InputName& input, std::vector<Shape>& shapes) {
     const std::string what = fmt::format("{} '{}'", entry.kind().table, entry.name);
-    const auto source = find_entry(recipe_, input.kind, input.text);
+    const auto source = find_entry(recipe_, input);
     if (!source) {
       std::vector<std::string> names;
       for (const auto& other : recipe_.entries) {
-        if (other->kind().table == input.kind) names.push_back(other->name);
+        const std::string& table = other->kind().table;
+        if (std::find(input.kinds.begin(), input.kinds.end(), table) != input.kinds.end())
+          names.push_back(other->name);
       }
       const std::string nearest = nearest_word(input.text, names);
-      diagnostics_.add(entry.line, fmt::format("{}: there is no {} '{}'", what, input.kind, input.text),
-                       names.empty() ? "" : fmt::format("{}", fmt::join(names, ", ")),
-                       nearest.empty() ? fmt::format("add a [[{}]] of that name", input.kind)
-                                       : fmt::format("did you mean '{}'?", nearest));
+      diagnostics_.add(
+          entry.line,
+          fmt::format("{}: there is no {} '{}'", what, fmt::join(input.kinds, " or "), input.text),
+          names.empty() ? "" : fmt::format("{}", fmt::join(names, ", ")),
+          nearest.empty() ? fmt::format("add a [[{}]] of that name", fmt::join(input.kinds, "]] or [["))
+                          : fmt::format("did you mean '{}'?", nearest));
       return;
     }
     if (const auto shape = source->shape()) shapes.push_back(*shape);

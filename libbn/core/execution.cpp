@@ -117,8 +117,7 @@ void parallel_for(const Execution& execution, std::int64_t count,
   // The process-wide limit lets the tests run more threads than the machine has cores, to show that
   // the number changes nothing. It is no higher than that: TBB may start a worker for every arena
   // that was ever made. An arena that asks for more makes TBB print a warning.
-  static const int most =
-      threads_to_be_had(std::max(tbb::info::default_concurrency(), kMostOversubscribed));
+  static const int most = threads_to_be_had(std::max(tbb::info::default_concurrency(), kMostOversubscribed));
   if (most == 1) {
     for (std::int64_t i = 0; i < count; ++i) body(i);
     return;

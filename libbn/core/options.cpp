@@ -139,6 +139,7 @@ std::optional<Value> parsed(const Option& option, std::string_view text) {
       return as_value(option.percent ? share_of(text) : whole_text_as<double>(text));
     case OptionType::text:
     case OptionType::choice:
+    case OptionType::measured:
       return Value(std::string(text));
     case OptionType::size:
     case OptionType::shape: {
@@ -154,6 +155,34 @@ std::optional<Value> parsed(const Option& option, std::string_view text) {
       return as_value(list_of(text, ','));
   }
   return std::nullopt;
+}
+
+bool has_number(const MeasuredWord& word) { return word.least != 0.0 || word.most != 0.0; }
+
+/// The word and the number of "gauss:1.5"; nothing if it is none of them, or out of range.
+std::optional<std::pair<std::string, double>> measured_parts(const std::vector<MeasuredWord>& words,
+                                                             std::string_view text) {
+  const std::size_t colon = text.find(':');
+  for (const MeasuredWord& word : words) {
+    if (text.substr(0, colon) != word.word) continue;
+    if (colon == std::string_view::npos) return std::pair(word.word, word.usual);
+    const auto number = whole_text_as<double>(text.substr(colon + 1));
+    const bool fits = has_number(word) && number && *number >= word.least && *number <= word.most &&
+                      (!word.whole || *number == std::floor(*number));
+    if (!fits) return std::nullopt;
+    return std::pair(word.word, *number);
+  }
+  return std::nullopt;
+}
+
+std::string measured_text(const std::vector<MeasuredWord>& words) {
+  std::string text;
+  for (const MeasuredWord& word : words) {
+    text += (text.empty() ? "" : ", ") + word.word;
+    if (has_number(word))
+      text += fmt::format(":{}..{}{}", word.least, word.most, word.whole ? " (whole)" : "");
+  }
+  return text;
 }
 
 /// Edits (insert, delete, replace, swap of neighbours) from a to b: Damerau 1964, restricted form.
@@ -220,6 +249,8 @@ std::string allowed_text(const Option& option) {
       return "a string";
     case OptionType::choice:
       return fmt::format("\"{}\"", fmt::join(option.words, "\", \""));
+    case OptionType::measured:
+      return measured_text(option.measured_words);
     case OptionType::size:
       return fmt::format("[width, height], each {}", range_text(option));
     case OptionType::shape:
@@ -257,8 +288,10 @@ std::string out_of_range(const Option& option, const Value& value) {
     if (std::none_of(list->begin(), list->end(), outside)) return "";
     return fmt::format("is [{}]", fmt::join(*list, ", "));
   }
-  if (option.type != OptionType::choice) return "";
   const auto* word = std::get_if<std::string>(&value);
+  if (option.type == OptionType::measured && word)
+    return measured_parts(option.measured_words, *word) ? "" : fmt::format("is '{}'", word->substr(0, 60));
+  if (option.type != OptionType::choice) return "";
   if (!word || std::find(option.words.begin(), option.words.end(), *word) != option.words.end()) return "";
   return fmt::format("is '{}'", word->substr(0, 60));
 }
@@ -284,6 +317,15 @@ Value value_from_text(const Option& option, std::string_view text, std::string_v
   if (option.type == OptionType::choice && !out_of_range(option, *value).empty()) {
     const std::string nearest = nearest_word(text, option.words);
     fail(fmt::format("'{}' is not a choice", text),
+         nearest.empty() ? "" : fmt::format("did you mean {}?", nearest));
+  }
+  if (option.type == OptionType::measured && !out_of_range(option, *value).empty()) {
+    std::vector<std::string> words;
+    for (const MeasuredWord& word : option.measured_words) words.push_back(word.word);
+    const std::string typed(text.substr(0, text.find(':')));
+    const bool known = std::find(words.begin(), words.end(), typed) != words.end();
+    const std::string nearest = known ? "" : nearest_word(typed, words);
+    fail(fmt::format("'{}' {}", text, known ? "is out of range" : "is not a choice"),
          nearest.empty() ? "" : fmt::format("did you mean {}?", nearest));
   }
   if (!out_of_range(option, *value).empty()) fail(fmt::format("'{}' is out of range", text), "");
@@ -332,6 +374,25 @@ Option& Options::text(std::string key, std::string& value, std::string help) {
               .type = OptionType::text,
               .get = [&value]() -> Value { return value.empty() ? Value() : Value(value); },
               .set = [&value](const Value& given) { value = std::get<std::string>(given); }});
+}
+
+Option& Options::measured_word(std::string key, std::vector<MeasuredWord> words, std::string help,
+                               std::function<std::pair<std::string, double>()> get,
+                               std::function<void(std::string_view word, double number)> set) {
+  Option option{.key = std::move(key), .help = std::move(help), .type = OptionType::measured};
+  option.get = [get = std::move(get), words]() -> Value {
+    const auto [word, number] = get();
+    for (const MeasuredWord& known : words) {
+      if (known.word == word) return has_number(known) ? fmt::format("{}:{}", word, number) : word;
+    }
+    return {};
+  };
+  option.set = [set = std::move(set), words](const Value& given) {
+    const auto parts = measured_parts(words, std::get<std::string>(given));
+    if (parts) set(parts->first, parts->second);
+  };
+  option.measured_words = std::move(words);
+  return add(std::move(option));
 }
 
 Option& Options::whole(std::string key, std::int64_t least, std::int64_t most, std::string help,

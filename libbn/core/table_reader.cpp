@@ -131,6 +131,7 @@ std::optional<Value> value_of(const Option& option, const toml::node& node) {
       return share ? std::optional<Value>(*share) : std::nullopt;
     }
     case OptionType::text:
+    case OptionType::measured:
     case OptionType::choice:
       return text ? std::optional<Value>(text->get()) : std::nullopt;
     default:

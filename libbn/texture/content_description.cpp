@@ -29,6 +29,14 @@ void add_mask(std::vector<std::string>& sentences, const Image& image) {
                                   mask_samples(image.type), image.shape().count()));
 }
 
+void add_spatiotemporal(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
+  const bool by_slice = metadata.facts.get<std::string>("ranks") == "slice";
+  sentences.push_back(fmt::format(
+      "Slice t is the blue-noise mask of frame t: samples are {}, rank 0..N-1 {}.", mask_samples(image.type),
+      by_slice ? fmt::format("in its slice, N = {} pixels", image.size.area())
+               : std::string("in the volume, N its voxels")));
+}
+
 void add_moves(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
   const bool gather = metadata.facts.get<std::string>("form") == "gather";
   const bool volume = metadata.facts.get<int>("step_z").has_value();
@@ -50,6 +58,7 @@ std::vector<std::string> content_description(const Image& image, const Metadata&
   std::vector<std::string> sentences;
   const bool atlas = metadata.kind == "retarget-atlas";
   if (metadata.kind == "mask") add_mask(sentences, image);
+  if (metadata.kind == "spatiotemporal-mask") add_spatiotemporal(sentences, image, metadata);
   if (atlas || metadata.kind == "retarget-tile") add_moves(sentences, image, metadata);
   if (atlas && !metadata.tiles.empty()) {
     const int count = static_cast<int>(metadata.tiles.size()) / image.depth;

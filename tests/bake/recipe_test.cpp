@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{1, "version = ", {"allowed: TOML 1.0"}},
         Mistake{1,
                 "version = 1\ncolour = 3",
-                {"unknown key 'colour'", "contact_sheet, mask, retarget, version"},
+                {"unknown key 'colour'", "contact_sheet, mask, retarget, spatiotemporal, version"},
                 2},
         Mistake{1, "version = 1\ncontact_sheet = 'a.jpg'", {"contact_sheet is 'a.jpg'", ".png"}, 2},
         Mistake{1, "version = 1\ncontact_sheet = 'm.png'", {"written already, by line 2"}, 6},
@@ -257,7 +257,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{7, "name = 'm'", {"name is used already, in line 3"}},
         Mistake{8, "", {"mask is missing", "either mask = \"name\" or image"}, 6},
         Mistake{8, "mask = 'm'\nimage = 'x.png'", {"image stands beside a mask"}, 9},
-        Mistake{8, "mask = 'n'", {"there is no mask 'n'", "allowed: m", "did you mean 'm'?"}, 6},
+        Mistake{8, "mask = 'n'", {"there is no mask or spatiotemporal 'n'", "allowed: m", "did you mean 'm'?"}, 6},
         Mistake{8, "mask = 'm'\nchannel = 1", {"channel does not apply", "only with image = \"path\""}, 9},
         Mistake{8, "image = 'x.png'\nchannel = 64", {"channel is 64", "0..63"}, 9},
         Mistake{

@@ -11,7 +11,8 @@ namespace bn {
 namespace {
 
 std::vector<const Kind*>& registry() {
-  static std::vector<const Kind*> shipped = {&baking::mask_kind(), &baking::retarget_kind()};
+  static std::vector<const Kind*> shipped = {&baking::mask_kind(), &baking::spatiotemporal_kind(),
+                                             &baking::retarget_kind()};
   return shipped;
 }
 

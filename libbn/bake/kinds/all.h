@@ -8,5 +8,6 @@ namespace bn::baking {
 
 const Kind& mask_kind();
 const Kind& retarget_kind();
+const Kind& spatiotemporal_kind();
 
 }  // namespace bn::baking

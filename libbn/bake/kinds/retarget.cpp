@@ -192,15 +192,17 @@ Options RetargetEntry::options() {
   options.integer("channel", channel, 0, 63, "The channel of the image, 0 for red.")
       .only_if([this] { return !image.empty() && !(anneals && !anneal.channels.empty()); },
                "image = \"path\", and without channels");
-  options.text("mask", mask, "The source: the name of a [[mask]].").naming_entry("mask").only_in_recipes();
+  options.text("mask", mask, "The source: the name of a [[mask]] or [[spatiotemporal]].")
+      .naming_entry({"mask", "spatiotemporal"})
+      .only_in_recipes();
   options
       .text("to", to,
             "The mask of the next frame, where it is not the source moved by the step: an image file.")
       .naming_file()
       .from_edition(2)
       .only_if(reads_image, "image = \"path\"");
-  options.text("to_mask", to_mask, "The same: the name of a [[mask]].")
-      .naming_entry("mask")
+  options.text("to_mask", to_mask, "The same: the name of a [[mask]] or [[spatiotemporal]].")
+      .naming_entry({"mask", "spatiotemporal"})
       .only_in_recipes()
       .from_edition(2)
       .only_if([this] { return !mask.empty(); }, "mask = \"name\"");

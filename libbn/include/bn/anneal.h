@@ -215,8 +215,8 @@ struct AnnealOptions {
   /// Budget of each chain, 1..2^62. A proposal is one pair of seeds, within reach or not. The last 64th is
   /// spent at temperature 0, whatever the schedule.
   std::int64_t proposals = 1'000'000'000;
-  /// 0, or 1..proposals: the run ends after the round in which it has made so many, but cools as if for all of
-  /// `proposals`. So a run that was interrupted can be reproduced.
+  /// 0, or 1..proposals: the run ends after the round in which it has made so many, but cools as if for all
+  /// of `proposals`. So a run that was interrupted can be reproduced.
   std::int64_t stop_after = 0;
   std::uint64_t seed = 1;
   /// Largest distance per axis of two seeds that are swapped. Of a retarget tile 1..2 radius; 0 for 5/3

@@ -12,6 +12,7 @@
 #include "bn/noise.h"
 #include "bn/retarget.h"
 #include "bn/retarget_anneal.h"
+#include "bn/spatiotemporal.h"
 
 namespace bn {
 
@@ -43,6 +44,29 @@ class MaskEntry : public EntryOf<MaskEntry, MaskOutput> {
   Metadata metadata(std::size_t output, const std::vector<Input>& inputs,
                     const std::filesystem::path& folder) const override;
   std::vector<std::string> file_kinds() const override { return {"mask"}; }
+};
+
+// --- spatiotemporal masks -------------------------------------------------------------------------
+
+/// `[[spatiotemporal]]`: a blue-noise mask in a volume, a slice a frame. Depth 1: a mask made for a blur.
+class SpatiotemporalEntry : public EntryOf<SpatiotemporalEntry, MaskOutput> {
+ public:
+  SpatiotemporalOptions mask = {};
+
+  const Kind& kind() const override;
+  Options options() override;
+  void check(const Complain& complain) const override;
+  void default_output(std::size_t output) override;
+  Options output_options(std::size_t output) override;
+  SampleType output_type(std::size_t output) const override { return outputs.at(output).type; }
+  int output_channels(std::size_t) const override { return 1; }
+  std::optional<Shape> shape() const override { return mask.size; }
+  int output_depth(std::size_t, const std::vector<Shape>&) const override { return mask.size.depth; }
+  Cost cost(const std::vector<Shape>& input_shapes, const Execution& execution) const override;
+  Made make(const std::vector<Input>& inputs, const Execution& execution) const override;
+  Metadata metadata(std::size_t output, const std::vector<Input>& inputs,
+                    const std::filesystem::path& folder) const override;
+  std::vector<std::string> file_kinds() const override { return {"spatiotemporal-mask"}; }
 };
 
 // --- retarget sets -------------------------------------------------------------------------------

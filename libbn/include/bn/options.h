@@ -35,10 +35,18 @@ enum class OptionType {
   real,      ///< one number
   text,      ///< any text
   choice,    ///< one word of a list
+  measured,  ///< one word of a list with a number: "gauss:1.5"; a text
   size,      ///< width and height
   shape,     ///< width, height and depth; width and height alone mean depth 1
   offset,    ///< x and y
   integers,  ///< a list of whole numbers
+};
+
+/// A word that goes with a number: "gauss:1.5". Without it, "gauss", the number is `usual`.
+struct MeasuredWord {
+  std::string word;
+  double least = 0.0, most = 0.0, usual = 0.0;
+  bool whole = false;
 };
 
 /// One option. Everything but get, set and applies is plain description.
@@ -51,7 +59,8 @@ struct Option {
   bool above_least = false;                  ///< the real number `least_real` itself is not allowed
   bool percent = false;                      ///< a real number that may be written as "0.5%" too
   std::size_t most_elements = 0;             ///< of a list
-  std::vector<std::string> words = {};       ///< of a choice
+  std::vector<std::string> words = {};       ///< of a choice; of a measured word those without a number
+  std::vector<MeasuredWord> measured_words = {};
   std::string unit = {};                     ///< "pixels"
   std::string unset_word = {};               ///< the word that stands for "not set", as "auto" for a step
   std::string unset_help = {};               ///< what holds where the option is not set: "half a radius"
@@ -63,8 +72,8 @@ struct Option {
   int since = 1;
   bool required = false;
   bool recipe_only = false;  ///< no flag of the command, which has other ways to say it
-  /// Of a text: it names another entry of the recipe, of this kind (its table: "mask") ...
-  std::string names_kind = {};
+  /// Of a text: it names another entry of the recipe, of one of these kinds (their tables: "mask") ...
+  std::vector<std::string> names_kinds = {};
   /// ... or a file that is read, relative to the recipe.
   bool names_file = false;
 
@@ -85,7 +94,7 @@ struct Option {
     needs = std::move(condition);
     return *this;
   }
-  Option& naming_entry(std::string kind) { return names_kind = std::move(kind), *this; }
+  Option& naming_entry(std::vector<std::string> kinds) { return names_kinds = std::move(kinds), *this; }
   Option& naming_file() { return names_file = true, *this; }
   Option& if_unset(std::string meaning) { return unset_help = std::move(meaning), *this; }
 };
@@ -154,6 +163,28 @@ class Options {
   /// A choice kept elsewhere than in one variable.
   Option& word(std::string key, std::vector<std::string> words, std::string help, std::function<Value()> get,
                std::function<void(const Value&)> set);
+  /// A word with a number: words[i] stands for list[i] and sets `number`; a word whose range is empty (least
+  /// and most are 0) has none.
+  template <class Enum>
+  Option& measured(std::string key, Enum& value, double& number,
+                   std::vector<std::pair<MeasuredWord, Enum>> words, std::string help) {
+    std::vector<MeasuredWord> list;
+    for (const auto& [word, meaning] : words) list.push_back(word);
+    return measured_word(
+        std::move(key), std::move(list), std::move(help),
+        [&value, &number, words]() -> std::pair<std::string, double> {
+          for (const auto& [word, meaning] : words) {
+            if (meaning == value) return {word.word, number};
+          }
+          return {};
+        },
+        [&value, &number, words](std::string_view given, double of_it) {
+          for (const auto& [word, meaning] : words) {
+            if (word.word == given) value = meaning;
+          }
+          number = of_it;
+        });
+  }
   Option& size(std::string key, Extent& value, int least, int most, std::string help);
   Option& shape(std::string key, Shape& value, int least, int most, std::string help);
   /// `unset_word` is what a recipe and a flag say for an empty value.
@@ -188,6 +219,9 @@ class Options {
       value = static_cast<T>(std::get<Held>(given));
     }
   }
+  Option& measured_word(std::string key, std::vector<MeasuredWord> words, std::string help,
+                        std::function<std::pair<std::string, double>()> get,
+                        std::function<void(std::string_view word, double number)> set);
   Option& whole(std::string key, std::int64_t least, std::int64_t most, std::string help,
                 std::function<Value()> get, std::function<void(const Value&)> set);
   Option& add(Option option);
