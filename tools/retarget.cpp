@@ -148,11 +148,11 @@ Verb retarget_verb() {
       "Write annealing's course as CSV (one tile only); docs/annealing.md lists its columns.");
   verb.arguments.in_group("With --method anneal");
   declare_older_names(verb.arguments, *settings);
-  verb.arguments.option(
-      "--out", settings->out, texture_path(),
-      "The file to write, 8 bit; its extension decides the format. Without it only the figures are "
-      "printed.",
-      "-o");
+  verb.arguments.option("--out", settings->out, texture_path(),
+                        "The file to write, 8 bit, in .exr float; its extension decides the format. Without "
+                        "it only the figures are "
+                        "printed.",
+                        "-o");
   verb.arguments.flag("--json", settings->json, true, "Print the result as JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;

@@ -5,6 +5,9 @@
 // What its defaults would do and we do not want: multiply colour by alpha on reading (masks keep
 // independent values in the four channels), mark the second or fourth channel as alpha on writing,
 // convert colours, write the time into the file, scale integers that become floats, take all threads.
+//
+// Parts of an EXR and pages of a TIFF that are alike in size, channels and type are the slices of a volume.
+// Where they are not, the first is the picture, and a note says how many there are.
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -17,6 +20,7 @@
 #include <mutex>
 
 #include "bn/version.h"
+#include "oiio/formats.h"
 #include "texture/error.h"
 #include "texture/image.h"
 #include "texture/oiio_module.h"
@@ -95,9 +99,38 @@ StoredType stored_type(const OIIO::ImageSpec& spec, const std::string& name) {
   }
 }
 
-/// Refuses what is not read, and checks the limits, before memory is taken for the samples.
-void check_spec(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::string& name,
-                const Execution& execution) {
+/// Refuses the TIFFs whose samples OpenImageIO would convert, or that mean something else than they say.
+void check_tiff_colours(const OIIO::ImageSpec& spec, const std::string& name) {
+  enum Photometric { kWhiteIsZero, kBlackIsZero, kRgb, kPalette, kMask, kInks, kYcbcr, kLab = 8 };
+  const int photometric = spec.get_int_attribute("tiff:PhotometricInterpretation", kBlackIsZero);
+  const auto refuse = [&](std::string_view what, const char* remedy) {
+    fail_input(name, fmt::format("a TIFF of {}", what),
+               "grey from black to white, RGB, palettes, inks (CMYK)", remedy);
+  };
+  switch (photometric) {
+    case kBlackIsZero:
+    case kRgb:
+    case kPalette:
+    case kInks:  // as stored, by the wish for raw colour
+      break;
+    case kWhiteIsZero:
+      return refuse("grey from white to black", "convert it to grey from black to white");
+    case kYcbcr:
+      return refuse("colours as YCbCr", "convert it to RGB");
+    case kLab:
+      return refuse("colours as Lab", "convert it to RGB");
+    default:
+      return refuse(fmt::format("photometric interpretation {}", photometric), "convert it to grey or RGB");
+  }
+  const int bits = spec.get_int_attribute("oiio:BitsPerSample", 8);  // 64: stored_type() refuses it
+  if (bits != 24 && (bits % 8 == 0 || bits == 1 || bits == 2 || bits == 4)) return;
+  // OpenImageIO would stretch them to 8, 16 or 32.
+  fail_input(name, fmt::format("samples of {} bits", bits), "1, 2, 4, 8, 16, 32 bits",
+             "convert it to 16 bit");
+}
+
+/// Refuses what is not read, before memory is taken for the samples.
+void check_spec(const OIIO::ImageSpec& spec, const std::string& format, const std::string& name) {
   if (spec.deep) fail_input(name, "a deep image", "flat images");
   if (spec.depth > 1) fail_input(name, "a volume", "flat images");
   check_shape(spec.width, spec.height, spec.nchannels, name);
@@ -105,11 +138,17 @@ void check_spec(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::
   const int strip = spec.get_int_attribute("tiff:RowsPerStrip");
   if (strip > std::numeric_limits<int>::max() - kMaxSide)
     fail_input(name, fmt::format("strips of {} rows", strip));
+  if (format == "tiff") check_tiff_colours(spec, name);
+}
 
+/// The limits, of that many parts.
+void check_size(const OIIO::ImageSpec& spec, int parts, std::size_t file_bytes, const std::string& name,
+                const Execution& execution) {
   const StoredType type = stored_type(spec, name);
-  const std::uint64_t ours = sample_bytes({spec.width, spec.height}, spec.nchannels, type.ours);
+  const std::uint64_t ours = sample_bytes({spec.width, spec.height, parts}, spec.nchannels, type.ours);
   check_decoded_size(ours, file_bytes, name);
-  const std::uint64_t native = type.widened() ? ours / 4 * type.read.size() : 0;
+  const std::uint64_t native =
+      type.widened() ? ours / static_cast<std::uint64_t>(parts) / 4 * type.read.size() : 0;
   std::uint64_t tiles = 0;  // a row of them
   if (spec.tile_width > 0) {
     check_shape(spec.tile_width, spec.tile_height, 1, name + ", tiles");
@@ -120,7 +159,7 @@ void check_spec(const OIIO::ImageSpec& spec, std::size_t file_bytes, const std::
 }
 
 template <class Sample>
-void to_float(const std::vector<std::byte>& native, std::vector<std::byte>& samples) {
+void to_float(const std::vector<std::byte>& native, std::span<std::byte> samples) {
   for (std::size_t i = 0; i < samples.size() / sizeof(float); ++i) {
     Sample value;
     std::memcpy(&value, native.data() + i * sizeof value, sizeof value);
@@ -129,7 +168,7 @@ void to_float(const std::vector<std::byte>& native, std::vector<std::byte>& samp
   }
 }
 
-void to_float(TypeDesc type, const std::vector<std::byte>& native, std::vector<std::byte>& samples) {
+void to_float(TypeDesc type, const std::vector<std::byte>& native, std::span<std::byte> samples) {
   switch (type.basetype) {
     case TypeDesc::INT8:
       return to_float<std::int8_t>(native, samples);
@@ -159,50 +198,123 @@ TypeDesc type_desc(SampleType type) {
                                    : TypeDesc::FLOAT;
 }
 
+/// One file, open.
+class File {
+ public:
+  File(ByteView bytes, const std::string& format, const std::string& name, const Execution& execution)
+      : reader_(bytes), format_(format), name_(name), execution_(execution), file_bytes_(bytes.size()) {
+    input_ = OIIO::ImageInput::create(format);
+    if (!input_ || !input_->set_ioproxy(&reader_))
+      fail_input(name, fmt::format("OpenImageIO cannot read '{}' here: {}", format, OIIO::geterror()));
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    wishes.attribute("oiio:RawColor", 1);
+    if (!input_->open("image." + format, first_, wishes)) fail();
+  }
+
+  /// `parts`: how many there are.
+  Decoded decode(int parts) {
+    check_spec(first_, format_, name_);
+    Decoded decoded;
+    decoded.description = first_.get_string_attribute("ImageDescription");
+    if (format_ == "openexr") decoded.channel_names = first_.channelnames;
+    const bool alike = parts > 1 && parts_are_alike(parts);
+    const int slices = alike ? parts : 1;
+    check_size(first_, slices, file_bytes_, name_, execution_);
+    note_parts(parts, alike, decoded);
+    Image& image = decoded.image;
+    image = {.size = {first_.width, first_.height},
+             .depth = slices,
+             .channels = first_.nchannels,
+             .type = stored_type(first_, name_).ours,
+             .samples = {}};
+    image.samples.resize(sample_bytes(image.shape(), image.channels, image.type));
+    const std::size_t slice = image.samples.size() / static_cast<std::size_t>(slices);
+    for (int part = 0; part < slices; ++part)
+      read_part(part, std::span(image.samples).subspan(static_cast<std::size_t>(part) * slice, slice));
+    return decoded;
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    const std::string message = input_->geterror();  // one line a failed strip
+    fail_input(name_, fmt::format("cannot be decoded: {}", message.substr(0, message.find('\n'))));
+  }
+
+  bool parts_are_alike(int parts) {
+    const StoredType type = stored_type(first_, name_);
+    for (int part = 1; part < parts; ++part) {
+      throw_if_stopped(execution_);
+      if (!input_->seek_subimage(part, 0)) fail();
+      const OIIO::ImageSpec& spec = input_->spec();
+      if (spec.width != first_.width || spec.height != first_.height || spec.nchannels != first_.nchannels ||
+          spec.deep || spec.depth > 1) {
+        return false;
+      }
+      check_spec(spec, format_, name_);
+      const StoredType other = stored_type(spec, name_);
+      if (other.read != type.read || other.ours != type.ours) return false;
+    }
+    return true;
+  }
+
+  void note_parts(int parts, bool alike, Decoded& decoded) {
+    const char* const word = format_ == "tiff" ? "pages" : "parts";
+    if (alike) decoded.notes.push_back(fmt::format("it has {} {}, which are read as slices", parts, word));
+    if (parts > 1 && !alike) {
+      decoded.notes.push_back(
+          fmt::format("it has {} {} that differ in size, channels or type; the first is read", parts, word));
+    }
+    // First back to the first: after a search in vain OpenImageIO 2.4 would keep what the last part says of
+    // itself.
+    if (!input_->seek_subimage(0, 0)) fail();
+    if (input_->seek_subimage(0, 1)) decoded.notes.emplace_back("it has mip levels; the largest is read");
+    input_->geterror();  // that there are none
+  }
+
+  void read_part(int part, std::span<std::byte> samples) {
+    if (!input_->seek_subimage(part, 0)) fail();
+    const OIIO::ImageSpec& spec = input_->spec();
+    const StoredType type = stored_type(spec, name_);
+    std::vector<std::byte> native(type.widened() ? samples.size() / 4 * type.read.size() : 0);
+    const OIIO::ProgressCallback stop_requested = [](void* data, float) {
+      return static_cast<const Execution*>(data)->stop.stop_requested();
+    };
+    const bool complete = input_->read_image(part, 0, 0, spec.nchannels, type.read,
+                                             type.widened() ? native.data() : samples.data(),
+                                             OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride,
+                                             stop_requested, const_cast<Execution*>(&execution_));
+    throw_if_stopped(execution_);
+    if (!complete || input_->has_error()) fail();
+    if (type.widened()) to_float(type.read, native, samples);
+  }
+
+  MemoryReader reader_;
+  const std::string& format_;
+  const std::string& name_;
+  const Execution& execution_;
+  std::size_t file_bytes_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec first_;
+};
+
 }  // namespace
 
 Decoded decode(ByteView bytes, const std::string& format, const std::string& name,
                const Execution& execution) {
+  if (format == "jpeg") return decode_jpeg(bytes, name, execution);
+  if (format == "gif") return decode_gif(bytes, name, execution);
+  if (format == "webp") return decode_webp(bytes, name, execution);
   configure();
-  if (format == "openexr") check_exr_header(bytes, name);
-  MemoryReader reader(bytes);
-  const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
-  if (!input || !input->set_ioproxy(&reader)) {
-    fail_input(name, fmt::format("OpenImageIO cannot read '{}' here: {}", format, OIIO::geterror()));
-  }
-  const auto fail = [&] {
-    const std::string message = input->geterror();  // one line a failed strip
-    fail_input(name, fmt::format("cannot be decoded: {}", message.substr(0, message.find('\n'))));
-  };
-
-  OIIO::ImageSpec spec, wishes;
-  wishes.attribute("oiio:UnassociatedAlpha", 1);
-  if (!input->open("image." + format, spec, wishes)) fail();
-  check_spec(spec, bytes.size(), name, execution);
-  const StoredType type = stored_type(spec, name);
-
-  Decoded decoded;
-  Image& image = decoded.image;
-  image = {.size = {spec.width, spec.height}, .channels = spec.nchannels, .type = type.ours, .samples = {}};
-  image.samples.resize(sample_bytes(image.size, image.channels, image.type));
-  std::vector<std::byte> native(type.widened() ? image.samples.size() / 4 * type.read.size() : 0);
-
-  const OIIO::ProgressCallback stop_requested = [](void* data, float) {
-    return static_cast<const Execution*>(data)->stop.stop_requested();
-  };
-  const bool complete = input->read_image(0, 0, 0, spec.nchannels, type.read,
-                                          type.widened() ? native.data() : image.samples.data(),
-                                          OIIO::AutoStride, OIIO::AutoStride, OIIO::AutoStride,
-                                          stop_requested, const_cast<Execution*>(&execution));
-  throw_if_stopped(execution);
-  if (!complete || input->has_error()) fail();
-  if (type.widened()) to_float(type.read, native, image.samples);
-  decoded.description = spec.get_string_attribute("ImageDescription");
-  return decoded;
+  int parts = 1;
+  if (format == "openexr") parts = exr_parts(bytes, name);
+  if (format == "tiff") parts = tiff_pages(bytes, name);
+  return File(bytes, format, name, execution).decode(parts);
 }
 
 Bytes encode(const std::string& format, const Image& image, const std::string& description) {
   configure();
+  if (image.depth > 1) return encode_exr_parts(image, channel_names(image.channels), description);
   Bytes bytes;
   OIIO::Filesystem::IOVecOutput writer(bytes);
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(format);

@@ -20,7 +20,8 @@ struct Decoded {
   Image image;
   std::string description;
   SliceKind slices = SliceKind::layers;
-  std::vector<std::string> notes;  ///< as in FileContent
+  std::vector<std::string> notes;          ///< as in FileContent
+  std::vector<std::string> channel_names;  ///< as in FileContent
 };
 
 /// Lower case, without the dot.
@@ -32,6 +33,9 @@ inline std::string extension_of(const std::filesystem::path& path) {
   }
   return extension;
 }
+
+/// Whether the name ends as those of files that read_image() reads.
+bool has_image_extension(const std::filesystem::path& path);
 
 /// Decodes bytes by their signature, or by the extension of `name` where they have none of those we
 /// know. Throws like read_image(); `name` is for messages.
@@ -49,13 +53,23 @@ bool holds_volumes(const std::filesystem::path& path);
 /// The file of the metadata of a DDS.
 std::filesystem::path metadata_beside(const std::filesystem::path& dds);
 
-// Through OpenImageIO, in a module that is loaded now. `format` is its name of a format: "openexr", "tiff", or an extension.
+// By libraries in a module that is loaded now. `format` is "jpeg", "gif", "webp", or OpenImageIO's name:
+// "openexr", "tiff", "hdr", "tga".
 Decoded decode_oiio(ByteView bytes, const std::string& format, const std::string& name,
                     const Execution& execution);
 Bytes encode_oiio(const std::string& format, const Image& image, const std::string& description);
 
-/// Throws unless every attribute of an EXR header lies inside the file.
-void check_exr_header(ByteView bytes, const std::string& name);
+/// The number of parts. Throws unless every attribute of every header of an EXR lies inside the file.
+int exr_parts(ByteView bytes, const std::string& name);
+/// The number of pages, at least 1. Throws if there are too many, or their chain has no end.
+int tiff_pages(ByteView bytes, const std::string& name);
+
+// PBM, PGM, PPM, PFM.
+bool is_pnm(ByteView bytes);
+Decoded decode_pnm(ByteView bytes, const std::string& name, const Execution& execution);
+
+bool is_bmp(ByteView bytes);
+Decoded decode_bmp(ByteView bytes, const std::string& name, const Execution& execution);
 
 // PNG, by libpng.
 Decoded decode_png(ByteView bytes, const std::string& name, const Execution& execution);

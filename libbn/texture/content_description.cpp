@@ -40,9 +40,10 @@ void add_spatiotemporal(std::vector<std::string>& sentences, const Image& image,
 void add_moves(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
   const bool gather = metadata.facts.get<std::string>("form") == "gather";
   const bool volume = metadata.facts.get<int>("step_z").has_value();
+  const char* const shift = image.type == SampleType::f32 ? "" : " + 128";
   sentences.push_back(
-      fmt::format("Channel 0 is x + 128, channel 1 is y + 128{}: {}, in pixels.",
-                  volume ? ", channel 2 is z + 128" : ", channel 2 is 0",
+      fmt::format("Channel 0 is x{}, channel 1 is y{}, channel 2 is {}{}: {}, in pixels.", shift, shift,
+                  volume ? "z" : "0", volume ? shift : "",
                   gather ? "where the seed of a pixel comes from" : "where the seed of a pixel goes"));
   if (image.depth > 1 && !volume) {
     sentences.push_back(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "bn/texture.h"
@@ -110,59 +111,91 @@ Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type) 
   return image;
 }
 
-Image encode_moves(const Grid<Offset>& move) {
+namespace {
+
+void check_move_type(SampleType type) {
+  if (type != SampleType::u8 && type != SampleType::f32)
+    fail_input("encode_moves", fmt::format("{} samples", name_of(type)), "8bit, float");
+}
+
+/// Component number `i`, counted through all pixels and channels.
+void put_component(Image& image, std::size_t i, int value) {
+  const std::byte shifted = encode_component(value);  // checks the range
+  if (image.type == SampleType::u8) {
+    image.samples[i] = shifted;
+  } else {
+    const auto plain = static_cast<float>(value);
+    std::memcpy(image.samples.data() + i * sizeof plain, &plain, sizeof plain);
+  }
+}
+
+int component(const Image& image, std::size_t i) {
+  if (image.type == SampleType::u8) return decode_component(image.samples[i]);
+  float value;
+  std::memcpy(&value, image.samples.data() + i * sizeof value, sizeof value);
+  if (value >= -128.0f && value <= 127.0f && std::nearbyint(value) == value) return static_cast<int>(value);
+  fail_input("decode_moves", fmt::format("a component of {}", value), "whole numbers -128..127");
+}
+
+}  // namespace
+
+Image encode_moves(const Grid<Offset>& move, SampleType type) {
   if (move.depth() > 1) {
     fail_input("encode_moves", fmt::format("moves of {} slices without their third axis", move.depth()),
                "1 slice", "give the third axis too");
   }
-  Image image = blank(move.size(), 3, SampleType::u8, "encode_moves");
+  check_move_type(type);
+  Image image = blank(move.size(), 3, type, "encode_moves");
   for (std::size_t i = 0; i < move.count(); ++i) {
-    image.samples[3 * i] = encode_component(move[i].x);
-    image.samples[3 * i + 1] = encode_component(move[i].y);
+    put_component(image, 3 * i, move[i].x);
+    put_component(image, 3 * i + 1, move[i].y);
   }
   return image;
 }
 
 Grid<Offset> decode_moves(const Image& image) {
   texture::check_image(image, "decode_moves");
-  if (image.type != SampleType::u8 || image.channels < 2 || image.depth > 1) {
-    fail_input("decode_moves", texture::describe(image), "8bit, one slice, red = x + 128, green = y + 128");
+  if ((image.type != SampleType::u8 && image.type != SampleType::f32) || image.channels < 2 ||
+      image.depth > 1) {
+    fail_input("decode_moves", texture::describe(image),
+               "one slice of 8bit, red = x + 128, green = y + 128, or of float, red = x, green = y");
   }
   Grid<Offset> move(image.size);
   for (std::size_t i = 0; i < move.count(); ++i) {
-    const std::byte* const pixel = image.samples.data() + i * static_cast<std::size_t>(image.channels);
-    move[i] = {decode_component(pixel[0]), decode_component(pixel[1])};
+    const std::size_t first = i * static_cast<std::size_t>(image.channels);
+    move[i] = {component(image, first), component(image, first + 1)};
   }
   return move;
 }
 
-Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z) {
+Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z, SampleType type) {
   if (move.shape() != z.shape()) {
     fail_input("encode_moves",
                fmt::format("a third axis of {}x{}x{} for moves of {}x{}x{}", z.width(), z.height(), z.depth(),
                            move.width(), move.height(), move.depth()),
                "the same shape");
   }
-  Image image = blank(move.shape(), 3, SampleType::u8, "encode_moves");
+  check_move_type(type);
+  Image image = blank(move.shape(), 3, type, "encode_moves");
   for (std::size_t i = 0; i < move.count(); ++i) {
-    image.samples[3 * i] = encode_component(move[i].x);
-    image.samples[3 * i + 1] = encode_component(move[i].y);
-    image.samples[3 * i + 2] = encode_component(z[i]);
+    put_component(image, 3 * i, move[i].x);
+    put_component(image, 3 * i + 1, move[i].y);
+    put_component(image, 3 * i + 2, z[i]);
   }
   return image;
 }
 
 VolumeMoves decode_volume_moves(const Image& image) {
   texture::check_image(image, "decode_volume_moves");
-  if (image.type != SampleType::u8 || image.channels < 3) {
+  if ((image.type != SampleType::u8 && image.type != SampleType::f32) || image.channels < 3) {
     fail_input("decode_volume_moves", texture::describe(image),
-               "8bit, red = x + 128, green = y + 128, blue = z + 128");
+               "8bit, red = x + 128, green = y + 128, blue = z + 128, or float without the 128");
   }
   VolumeMoves moves{.move = Grid<Offset>(image.shape()), .z = Grid<std::int8_t>(image.shape())};
   for (std::size_t i = 0; i < moves.move.count(); ++i) {
-    const std::byte* const pixel = image.samples.data() + i * static_cast<std::size_t>(image.channels);
-    moves.move[i] = {decode_component(pixel[0]), decode_component(pixel[1])};
-    moves.z[i] = static_cast<std::int8_t>(decode_component(pixel[2]));
+    const std::size_t first = i * static_cast<std::size_t>(image.channels);
+    moves.move[i] = {component(image, first), component(image, first + 1)};
+    moves.z[i] = static_cast<std::int8_t>(component(image, first + 2));
   }
   return moves;
 }

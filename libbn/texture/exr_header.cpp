@@ -13,6 +13,7 @@
 
 #include "texture/codec.h"
 #include "texture/error.h"
+#include "texture/image.h"
 
 namespace bn::texture {
 namespace {
@@ -123,23 +124,28 @@ bool skip_header(Walk& walk) {
   return false;
 }
 
-bool headers_fit(ByteView bytes) {
+/// How many headers there are; 0 if one does not fit.
+int count_headers(ByteView bytes) {
   constexpr std::size_t kVersionFlags = 5;
   constexpr std::byte kManyParts{0x10};
   Walk walk(bytes);
-  if (!walk.skip(8)) return false;  // the signature and the version
-  if (!skip_header(walk)) return false;
-  if ((bytes[kVersionFlags] & kManyParts) == std::byte{0}) return true;
-  while (!walk.at_zero()) {
-    if (!skip_header(walk)) return false;
+  if (!walk.skip(8)) return 0;  // the signature and the version
+  if (!skip_header(walk)) return 0;
+  if ((bytes[kVersionFlags] & kManyParts) == std::byte{0}) return 1;
+  int count = 1;
+  for (; !walk.at_zero(); ++count) {
+    if (!skip_header(walk)) return 0;
   }
-  return true;
+  return count;
 }
 
 }  // namespace
 
-void check_exr_header(ByteView bytes, const std::string& name) {
-  if (!headers_fit(bytes)) fail_input(name, "cannot be decoded: its EXR header is cut short or corrupt");
+int exr_parts(ByteView bytes, const std::string& name) {
+  const int count = count_headers(bytes);
+  if (count == 0) fail_input(name, "cannot be decoded: its EXR header is cut short or corrupt");
+  check_depth(count, name);
+  return count;
 }
 
 }  // namespace bn::texture

@@ -1,8 +1,9 @@
-// Reading PNG with libpng itself. OpenImageIO lets libpng print to stderr when a file is corrupt, hands out half a
-// picture when only the end is missing, and takes 0.2 s to start.
+// Reading PNG with libpng itself. OpenImageIO lets libpng print to stderr when a file is corrupt, hands out
+// half a picture when only the end is missing, and takes 0.2 s to start.
 //
-// Samples are those stored: no gamma, no multiplication by alpha. Palettes become colours, 1, 2 and
-// 4 bit grey becomes 8 bit (0..255), transparency becomes a channel.
+// Samples are those stored: no gamma, no multiplication by alpha. Palettes become colours, with alpha where
+// they have transparency; 1, 2 and 4 bit grey becomes 8 bit (0..255). A single value of grey or colour that
+// is marked as transparent (tRNS) is a mark on samples and none itself, so it adds no channel.
 //
 // libpng leaves on errors by longjmp(). It does so only inside guarded(), whose bodies own nothing
 // that would need a destructor.
@@ -90,10 +91,16 @@ Decoded decode_png(ByteView bytes, const std::string& name, const Execution& exe
   check_shape(width, height, 1, name);
 
   int passes = 0, channels = 0, depth = 0;
+  bool marks_one_colour = false;
   std::size_t row_bytes = 0;
   reader.guarded([&](png_structp png, png_infop info) {
-    png_set_expand(png);  // palettes, small depths, transparency
-    png_set_swap(png);    // 16 bit samples to little-endian
+    const bool has_transparency = png_get_valid(png, info, PNG_INFO_tRNS) != 0;
+    const bool palette = png_get_color_type(png, info) == PNG_COLOR_TYPE_PALETTE;
+    marks_one_colour = has_transparency && !palette;
+    if (palette) png_set_palette_to_rgb(png);
+    if (palette && has_transparency) png_set_tRNS_to_alpha(png);
+    if (png_get_color_type(png, info) == PNG_COLOR_TYPE_GRAY) png_set_expand_gray_1_2_4_to_8(png);
+    png_set_swap(png);  // 16 bit samples to little-endian
     passes = png_set_interlace_handling(png);
     png_read_update_info(png, info);
     channels = png_get_channels(png, info);
@@ -101,6 +108,10 @@ Decoded decode_png(ByteView bytes, const std::string& name, const Execution& exe
     row_bytes = png_get_rowbytes(png, info);
   });
   Decoded decoded;
+  if (marks_one_colour) {
+    decoded.notes.emplace_back(
+        "it marks one value as transparent (tRNS); the mark is left out, and no alpha is read");
+  }
   Image& image = decoded.image;
   image.size = {static_cast<int>(width), static_cast<int>(height)};
   image.channels = channels;

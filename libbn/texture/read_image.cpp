@@ -34,14 +34,24 @@ constexpr Signature kSignatures[] = {
     {"MM\0*"sv, "tiff"},
     {"II+\0"sv, "tiff"},
     {"MM\0+"sv, "tiff"},
+    {"\xff\xd8\xff"sv, "jpeg"},
+    {"GIF87a"sv, "gif"},
+    {"GIF89a"sv, "gif"},
+    {"#?RADIANCE"sv, "hdr"},
+    {"#?RGBE"sv, "hdr"},
 };
 
-/// Formats without a signature of their own, or a short one: known by the extension.
-constexpr std::string_view kExtensions[] = {"hdr", "jpeg", "jpg", "pfm", "pgm", "ppm", "tga"};
+constexpr std::string_view kExtensions[] = {"png", "exr", "tif", "tiff", "bin", "h",    "ktx2",
+                                            "dds", "bmp", "gif", "hdr",  "jpg", "jpeg", "pbm",
+                                            "pfm", "pgm", "ppm", "tga",  "webp"};
 
 bool begins_with(ByteView bytes, std::string_view signature) {
   return bytes.size() >= signature.size() &&
          std::memcmp(bytes.data(), signature.data(), signature.size()) == 0;
+}
+
+bool is_webp(ByteView bytes) {
+  return bytes.size() >= 12 && begins_with(bytes, "RIFF") && begins_with(bytes.subspan(8), "WEBP");
 }
 
 /// The whole regular file at `path`.
@@ -60,8 +70,10 @@ Bytes read_file(const std::filesystem::path& path, const Execution& execution) {
 
   struct stat status = {};
   if (::fstat(file, &status) != 0) fail(errno);
+  if (S_ISDIR(status.st_mode)) fail_io(name, "is a folder");
   if (!S_ISREG(status.st_mode))
-    fail_io(name, S_ISDIR(status.st_mode) ? "is a folder" : "is not a regular file");
+    fail_io(name, "is not a regular file, and pipes and devices are not read",
+            "write a file first and name it here");
   check_memory(execution, static_cast<std::uint64_t>(status.st_size), name);
 
   Bytes bytes(static_cast<std::size_t>(status.st_size));
@@ -103,13 +115,15 @@ Decoded decode_by_content(ByteView bytes, const std::string& name, const Executi
   for (const Signature& signature : kSignatures) {
     if (begins_with(bytes, signature.bytes)) return decode_oiio(bytes, signature.format, name, execution);
   }
-  const std::string extension = extension_of(name);
-  for (const std::string_view known : kExtensions) {
-    if (extension == known) return decode_oiio(bytes, extension, name, execution);
-  }
-  fail_input(name, "not an image of a known format",
-             fmt::format("PNG, EXR, TIFF, KTX2, DDS, .bin and .h by content, {} by extension",
-                         fmt::join(kExtensions, ", ")));
+  if (is_webp(bytes)) return decode_oiio(bytes, "webp", name, execution);
+  if (is_pnm(bytes)) return decode_pnm(bytes, name, execution);
+  if (is_bmp(bytes)) return decode_bmp(bytes, name, execution);
+  // A TGA has no signature.
+  if (extension_of(name) == "tga") return decode_oiio(bytes, "tga", name, execution);
+  fail_input(
+      name, "not an image of a known format",
+      "PNG, EXR, TIFF, KTX2, DDS, .bin, .h, BMP, GIF, HDR, JPEG, PBM, PGM, PPM, PFM, WebP by content, TGA by "
+      "extension");
 }
 
 }  // namespace
@@ -130,12 +144,18 @@ Decoded decode(ByteView bytes, const std::string& name, const Execution& executi
   }
 }
 
+bool has_image_extension(const std::filesystem::path& path) {
+  return std::find(std::begin(kExtensions), std::end(kExtensions), extension_of(path)) !=
+         std::end(kExtensions);
+}
+
 FileContent read_any(const std::filesystem::path& path, const Execution& execution) {
   const Bytes bytes = read_file(path, execution);
   Decoded decoded = decode(std::as_bytes(std::span(bytes)), path.string(), execution);
   FileContent content{.image = std::move(decoded.image),
                       .slices = decoded.slices,
                       .notes = std::move(decoded.notes),
+                      .channel_names = std::move(decoded.channel_names),
                       .metadata = {},
                       .metadata_fault = {}};
   if (is_dds(std::as_bytes(std::span(bytes)))) {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <optional>
 
@@ -22,13 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 using texture::fail_input;
 
-constexpr std::array<std::string_view, 15> kExtensions = {
-    "png", "exr", "tif", "tiff", "bin", "h", "ktx2", "dds", "hdr", "pfm", "pgm", "ppm", "tga", "jpg", "jpeg"};
+bool is_hidden(const fs::path& path) { return path.filename().string().starts_with('.'); }
 
 bool is_image_name(const fs::path& path) {
-  const std::string name = path.filename().string();
-  if (name.starts_with('.') || path.stem() == "contact_sheet") return false;
-  return std::find(kExtensions.begin(), kExtensions.end(), texture::extension_of(path)) != kExtensions.end();
+  if (is_hidden(path) || path.stem() == "contact_sheet") return false;
+  return texture::has_image_extension(path);
 }
 
 bool path_less(const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); }
@@ -136,6 +133,25 @@ std::vector<fs::path> files_of_pattern(const fs::path& pattern) {
 }  // namespace
 
 std::vector<fs::path> image_files(const fs::path& folder) { return files_in(folder, is_image_name); }
+
+std::vector<fs::path> image_files_below(const fs::path& folder) {
+  std::vector<fs::path> files = image_files(folder);  // with the error for a folder that cannot be read
+  std::error_code error;
+  const fs::path opened = folder.empty() ? fs::path(".") : folder;
+  constexpr auto kPassOver = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator entry(opened, kPassOver, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (is_hidden(entry->path())) {
+      if (entry->is_directory(ignored)) entry.disable_recursion_pending();
+      continue;
+    }
+    if (entry.depth() > 0 && is_image_name(entry->path()) && entry->is_regular_file(ignored))
+      files.push_back(entry->path());
+  }
+  std::sort(files.begin(), files.end(), path_less);
+  return files;
+}
 
 SliceFiles slice_files(std::span<const fs::path> inputs) {
   if (inputs.empty()) fail_input("slices", "no files", "one or more files, a folder or a pattern");

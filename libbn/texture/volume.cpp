@@ -28,6 +28,7 @@ void note_file(const fs::path& path, FileContent& content, bool first, Volume& v
   if (first) {
     volume.metadata = std::move(content.metadata);
     volume.slices = content.slices;
+    volume.channel_names = std::move(content.channel_names);
   }
 }
 

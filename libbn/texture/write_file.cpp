@@ -12,6 +12,9 @@
 // temporary as long as that has a name, and the kernel drops the lock with the writer. Process ids would
 // not do: they mean nothing across the machines or containers that share a folder.
 //
+// A file that is replaced keeps its permissions: they are set before the first byte is written, so that a
+// private file is at no moment readable by others.
+//
 // fsync() reports every error of the writes before it, so the result of close(), which must come after
 // the rename for the lock's sake, has nothing to add.
 
@@ -126,6 +129,15 @@ class Temporary {
 
   int get() const { return file_.get(); }
 
+  void take_permissions_of_target() {
+    struct stat old = {}, own = {};
+    if (::stat(target_.c_str(), &old) != 0 || ::fstat(get(), &own) != 0) return;
+    constexpr mode_t kPermissions = 0777;
+    if ((old.st_mode & kPermissions) == (own.st_mode & kPermissions)) return;
+    if (uninterrupted([&] { return calls_.chmod(get(), old.st_mode & kPermissions); }) != 0)
+      fail(target_.string(), "its permissions cannot be kept", errno);
+  }
+
   void rename_to_target() {
     if (name_.empty()) {
       const std::string name = temporary_name(target_);
@@ -190,6 +202,7 @@ const FileCalls& FileCalls::system() {
                  mode_t mode) { return ::openat(folder, name, flags, mode); },
       .write = ::write,
       .fsync = ::fsync,
+      .chmod = ::fchmod,
       .link =
           [](int file, int folder, const char* name) {
             const std::string unnamed = fmt::format("/proc/self/fd/{}", file);
@@ -206,6 +219,13 @@ std::filesystem::path check_replaceable(const std::filesystem::path& path) {
   if (!path.has_filename()) fail_io(path.string(), "not the name of a file");
   std::filesystem::path target = path;
   std::error_code error;
+  struct stat status = {};
+  // Before a link is followed: what /dev/stdout leads to may have no name.
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) {
+    if (S_ISDIR(status.st_mode)) fail_io(path.string(), "is a folder", "choose another name");
+    fail_io(path.string(), "exists and is not a regular file, and pipes and devices are not written to",
+            "write to a file; it appears when it is whole");
+  }
   if (std::filesystem::is_symlink(path, error)) {
     target = std::filesystem::canonical(path, error);
     if (error) fail_io(path.string(), "a symbolic link to nothing", "remove the link");
@@ -214,15 +234,8 @@ std::filesystem::path check_replaceable(const std::filesystem::path& path) {
   if (::access(folder.c_str(), W_OK | X_OK) != 0) {
     fail(path.string(), fmt::format("folder '{}' cannot be written to", folder.string()), errno);
   }
-  struct stat status = {};
-  if (::stat(target.c_str(), &status) == 0) {
-    if (!S_ISREG(status.st_mode)) {
-      fail_io(path.string(), S_ISDIR(status.st_mode) ? "is a folder" : "exists and is not a regular file",
-              "choose another name");
-    }
-  } else if (errno != ENOENT) {
+  if (::stat(target.c_str(), &status) != 0 && errno != ENOENT)
     fail(path.string(), "cannot be written", errno);
-  }
   return target;
 }
 
@@ -236,6 +249,7 @@ void write_file(const std::filesystem::path& path, std::span<const std::byte> by
   sweep(folder.get(), target, calls);
 
   Temporary temporary(folder.get(), target, calls);
+  temporary.take_permissions_of_target();
   while (!bytes.empty()) {
     const ssize_t written =
         uninterrupted([&] { return calls.write(temporary.get(), bytes.data(), bytes.size()); });

@@ -73,6 +73,34 @@ TEST(EncodeMoves, DecodingIsTheInverseForEveryOffset) {
   EXPECT_EQ(decode_moves(image), move);
 }
 
+TEST(EncodeMoves, FloatsAreTheMovesThemselves) {
+  Grid<Offset> move({256, 256});
+  for (int y = 0; y < 256; ++y) {
+    for (int x = 0; x < 256; ++x) move(x, y) = {x - 128, y - 128};
+  }
+  const Image image = encode_moves(move, SampleType::f32);
+  const auto samples = samples_of<float>(image);
+  ASSERT_EQ(samples.size(), 3 * move.count());
+  for (std::size_t i = 0; i < move.count(); ++i) {
+    ASSERT_EQ(samples[3 * i], static_cast<float>(move[i].x));
+    ASSERT_EQ(samples[3 * i + 1], static_cast<float>(move[i].y));
+    ASSERT_EQ(samples[3 * i + 2], 0.0f);
+  }
+  EXPECT_EQ(decode_moves(image), move);
+  expect_error(ErrorCode::invalid_input, [&] { encode_moves(move, SampleType::u16); });
+  expect_error(ErrorCode::invalid_input, [&] { encode_moves(move, SampleType::f16); });
+  expect_error(ErrorCode::invalid_input, [&] {
+    encode_moves(Grid<Offset>({1, 1}, Offset{128, 0}), SampleType::f32);
+  });
+  const float infinity = std::numeric_limits<float>::infinity(),
+              nan = std::numeric_limits<float>::quiet_NaN();
+  for (const float odd : {0.5f, 128.0f, -129.0f, infinity, -infinity, nan, 1e30f}) {
+    expect_error(ErrorCode::invalid_input, [&] {
+      decode_moves(image_of<float>({1, 1}, 2, SampleType::f32, {0.0f, odd}));
+    });
+  }
+}
+
 TEST(EncodeMoves, RefusesWhatDoesNotFit) {
   for (const Offset far :
        {Offset{128, 0}, Offset{-129, 0}, Offset{0, 128}, Offset{0, -129}, Offset{1 << 30, 0}}) {

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "bn/error.h"
+#include "bn/volume.h"
 #include "texture/codec.h"
 #include "texture/fixtures.h"
 
@@ -98,6 +99,169 @@ TEST(ForeignTiff, AlphaIsNotMultiplied) {
   }
 }
 
+/// A TIFF of one strip, plain, as its tags say.
+struct TiffRecipe {
+  int width, height, channels, bits, photometric;
+  bool floats = false;
+  std::vector<std::uint32_t> pages_after = {};  ///< offsets of further directories
+};
+
+Bytes tiff_of(const TiffRecipe& recipe, const Bytes& strip) {
+  Bytes bytes = {'I', 'I', 42, 0, 8, 0, 0, 0};
+  const auto put = [&](std::uint32_t value, int count) {
+    for (int i = 0; i < count; ++i) bytes.push_back(static_cast<unsigned char>(value >> 8 * i & 255));
+  };
+  constexpr std::uint32_t kTags = 10, kLong = 4, kShort = 3, kAfter = 8 + 2 + 12 * kTags + 4;
+  const auto tag = [&](std::uint32_t number, std::uint32_t type, std::uint32_t value) {
+    put(number, 2), put(type, 2), put(1, 4), put(value, 4);
+  };
+  const auto as_number = [](int value) { return static_cast<std::uint32_t>(value); };
+  put(kTags, 2);
+  tag(256, kLong, as_number(recipe.width));
+  tag(257, kLong, as_number(recipe.height));
+  const auto bits = as_number(recipe.bits);
+  if (recipe.channels == 1) {
+    tag(258, kShort, bits);
+  } else {  // a list behind the directory
+    put(258, 2), put(kShort, 2), put(as_number(recipe.channels), 4), put(kAfter, 4);
+  }
+  tag(259, kShort, 1);
+  tag(262, kShort, as_number(recipe.photometric));
+  tag(273, kLong, kAfter + 16);
+  tag(277, kShort, as_number(recipe.channels));
+  tag(278, kLong, as_number(recipe.height));
+  tag(279, kLong, static_cast<std::uint32_t>(strip.size()));
+  tag(339, kShort, recipe.floats ? 3 : 1);
+  put(recipe.pages_after.empty() ? 0 : recipe.pages_after[0], 4);
+  for (int i = 0; i < 8; ++i) put(bits, 2);
+  bytes.insert(bytes.end(), strip.begin(), strip.end());
+  return bytes;
+}
+
+constexpr int kWhiteIsZero = 0, kBlackIsZero = 1, kRgb = 2, kInks = 5, kYcbcr = 6, kLab = 8;
+
+Bytes counting(std::size_t count) {
+  Bytes bytes;
+  for (std::size_t i = 0; i < count; ++i) bytes.push_back(static_cast<unsigned char>(7 * i + 1));
+  return bytes;
+}
+
+TEST(ForeignTiff, SamplesAreAsStoredOrRefusedAlikeAtEveryDepth) {
+  for (const auto& [bits, floats] :
+       {std::pair{1, false}, {4, false}, {8, false}, {16, false}, {32, false}, {32, true}}) {
+    const Bytes strip = counting(static_cast<std::size_t>(8 * bits));  // 8x8 pixels of one channel
+    const auto of = [&](int channels, int photometric) {
+      return tiff_of({8, 8 / channels, channels, bits, photometric, floats}, strip);
+    };
+    SCOPED_TRACE(bits);
+    const Image grey = decoded(of(1, kBlackIsZero));
+    EXPECT_EQ(grey.channels, 1);
+    if (bits == 8 || bits == 16) {
+      EXPECT_EQ(0, std::memcmp(grey.samples.data(), strip.data(), strip.size()));
+    }
+    const auto refused = error_of([&] { decoded(of(1, kWhiteIsZero)); });
+    ASSERT_TRUE(refused.has_value());
+    EXPECT_NE(refused->what.find("from white to black"), std::string::npos) << refused->what;
+    EXPECT_NE(refused->remedy, "");
+    if (bits < 8) continue;
+    for (const int photometric : {kYcbcr, kLab, 32844, 4, 9, 32803}) {
+      SCOPED_TRACE(photometric);
+      const Bytes other = tiff_of({2, 2, 3, bits, photometric, floats}, counting(48));
+      expect_error(ErrorCode::invalid_input, [&] { decoded(other); });
+    }
+    const Image inks = decoded(of(4, kInks));
+    ASSERT_EQ(inks.channels, 4);
+    if (bits <= 16 || floats) {
+      EXPECT_EQ(0,
+                std::memcmp(inks.samples.data(), strip.data(), std::min(strip.size(), inks.samples.size())));
+    }
+    EXPECT_EQ(decoded(tiff_of({2, 2, 3, bits, kRgb, floats}, counting(48))).channels, 3);
+  }
+  // OpenImageIO would stretch these to 16 bits.
+  for (const int bits : {3, 6, 10, 12, 14, 24}) {
+    SCOPED_TRACE(bits);
+    const Bytes odd = tiff_of({8, 8, 1, bits, kBlackIsZero}, counting(256));
+    expect_error(ErrorCode::invalid_input, [&] { decoded(odd); });
+  }
+}
+
+TEST(ForeignTiff, AChainOfPagesThatGoesRoundIsRefused) {
+  const auto error = error_of([&] { decoded(tiff_of({2, 2, 1, 8, kBlackIsZero, false, {8}}, counting(4))); });
+  ASSERT_TRUE(error.has_value());
+  EXPECT_EQ(error->code, ErrorCode::invalid_input);
+  EXPECT_NE(error->what.find("pages"), std::string::npos) << error->what;
+}
+
+/// A file of several pictures, as OpenImageIO writes it, which it does only by path.
+void write_parts(const std::filesystem::path& path, const char* format, const std::vector<ImageSpec>& specs,
+                 const std::vector<Image>& parts) {
+  const auto output = OIIO::ImageOutput::create(format);
+  if (std::string_view(format) == "openexr") {
+    ASSERT_TRUE(output->open(path, static_cast<int>(specs.size()), specs.data())) << output->geterror();
+  } else {
+    ASSERT_TRUE(output->open(path, specs[0])) << output->geterror();
+  }
+  for (std::size_t i = 0; i < specs.size(); ++i) {
+    if (i > 0) {
+      ASSERT_TRUE(output->open(path, specs[i], OIIO::ImageOutput::AppendSubimage)) << output->geterror();
+    }
+    ASSERT_TRUE(output->write_image(TypeDesc::FLOAT, parts[i].samples.data())) << output->geterror();
+  }
+  ASSERT_TRUE(output->close());
+}
+
+TEST(ForeignFile, PartsAndPagesThatAreAlikeAreSlices) {
+  const TemporaryFolder folder;
+  std::vector<Image> parts;
+  for (std::uint64_t i = 0; i < 5; ++i) parts.push_back(random_image({6, 4}, 2, SampleType::f32, i));
+  const std::vector<ImageSpec> specs(5, ImageSpec(6, 4, 2, TypeDesc::FLOAT));
+  for (const char* format : {"openexr", "tiff"}) {
+    const std::filesystem::path path = folder / (std::string("parts.") + (format[0] == 'o' ? "exr" : "tif"));
+    write_parts(path, format, specs, parts);
+    const Volume volume = read_volume(path);
+    EXPECT_TRUE(same_picture(volume.image, stack_slices(parts))) << format;
+    ASSERT_EQ(volume.notes.size(), 1u);
+    EXPECT_NE(volume.notes[0].find("it has 5 pa"), std::string::npos) << volume.notes[0];
+    const auto error = error_of([&] { read_image(path); });
+    ASSERT_TRUE(error.has_value());
+    EXPECT_NE(error->what.find("5 slices"), std::string::npos);
+  }
+}
+
+TEST(ForeignFile, OfPartsThatDifferTheFirstIsReadAndTheirNumberNoted) {
+  const TemporaryFolder folder;
+  const Image first = random_image({6, 4}, 3, SampleType::f32),
+              smaller = random_image({5, 4}, 3, SampleType::f32),
+              fewer = random_image({6, 4}, 1, SampleType::f32);
+  for (const Image& other : {smaller, fewer}) {
+    ImageSpec spec(other.size.width, other.size.height, other.channels, TypeDesc::FLOAT);
+    spec.full_width = 6;  // one for all parts
+    write_parts(folder / "a.exr", "openexr", {ImageSpec(6, 4, 3, TypeDesc::FLOAT), spec}, {first, other});
+    write_parts(folder / "a.tif", "tiff", {ImageSpec(6, 4, 3, TypeDesc::FLOAT), spec}, {first, other});
+    for (const char* name : {"a.exr", "a.tif"}) {
+      const FileContent content = read_image(folder / name);
+      EXPECT_TRUE(same_picture(content.image, first));
+      ASSERT_EQ(content.notes.size(), 1u);
+      EXPECT_NE(content.notes[0].find("it has 2 pa"), std::string::npos) << content.notes[0];
+    }
+  }
+}
+
+TEST(ForeignExr, ChannelNamesAreThoseOfTheFile) {
+  ImageSpec spec(2, 2, 3, TypeDesc::FLOAT);
+  spec.channelnames = {"Z", "noise.x", "A"};
+  spec.alpha_channel = -1;
+  const Bytes bytes = written("openexr", spec, std::vector<float>{1, 2, 3, 1, 2, 3, 1, 2, 3, 1, 2, 3});
+  const Decoded read = decode(std::as_bytes(std::span(bytes)), "foreign", {});
+  ASSERT_EQ(read.channel_names.size(), 3u);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const float expected = read.channel_names[c] == "Z"         ? 1.0f
+                           : read.channel_names[c] == "noise.x" ? 2.0f
+                                                                : 3.0f;
+    EXPECT_EQ(samples_of<float>(read.image)[c], expected) << read.channel_names[c];
+  }
+}
+
 TEST(ForeignExr, HalfIsWidenedExactly) {
   const std::vector<float> samples = {0.0f, -0.5f, 1.0f / 3, 65504.0f, 6e-8f, 1.0f};
   ImageSpec spec(3, 2, 1, TypeDesc::HALF);
@@ -166,15 +330,13 @@ TEST(ForeignFile, MoreThan64ChannelsAreRefused) {
   }
 }
 
-TEST(ForeignFile, OtherFormatsAreKnownByTheirExtension) {
+TEST(ForeignFile, OtherFormatsAreKnownByTheirContentAndTgaByItsExtension) {
   const Image image = random_image({9, 7}, 3, SampleType::u8);
-  for (const char* name : {"tga", "ppm"}) {
-    const Bytes bytes = written(name, ImageSpec(9, 7, 3, TypeDesc::UINT8), samples_of<std::uint8_t>(image));
-    EXPECT_TRUE(same_picture(decoded(bytes, std::string("a.") + name), image)) << name;
-  }
-  // A damaged BMP can crash OpenImageIO 2.4: not read.
-  const Bytes bmp = written("bmp", ImageSpec(9, 7, 3, TypeDesc::UINT8), samples_of<std::uint8_t>(image));
-  expect_error(ErrorCode::invalid_input, [&] { decoded(bmp, "a.bmp"); });
+  const auto as = [&](const char* format) {
+    return written(format, ImageSpec(9, 7, 3, TypeDesc::UINT8), samples_of<std::uint8_t>(image));
+  };
+  EXPECT_TRUE(same_picture(decoded(as("tga"), "a.tga"), image));
+  for (const char* name : {"ppm", "bmp"}) EXPECT_TRUE(same_picture(decoded(as(name)), image)) << name;
 }
 
 /// A PNG made with libpng, as the test says.
@@ -184,6 +346,7 @@ struct PngRecipe {
   std::vector<png_color> palette = {};
   std::vector<png_byte> palette_alpha = {};
   bool text_at_end = false;
+  bool marks_a_colour = false;
 };
 
 Bytes png_of(const PngRecipe& recipe, const std::vector<std::uint8_t>& packed, int row_bytes) {
@@ -205,6 +368,11 @@ Bytes png_of(const PngRecipe& recipe, const std::vector<std::uint8_t>& packed, i
   if (!recipe.palette_alpha.empty()) {
     png_set_tRNS(png, info, recipe.palette_alpha.data(), static_cast<int>(recipe.palette_alpha.size()),
                  nullptr);
+  }
+  if (recipe.marks_a_colour) {
+    png_color_16 colour = {};
+    colour.gray = colour.red = colour.green = colour.blue = 1;
+    png_set_tRNS(png, info, nullptr, 0, &colour);
   }
   png_set_gAMA(png, info, 0.45455);
   png_write_info(png, info);
@@ -269,6 +437,24 @@ TEST(ForeignPng, InterlacedAndAlphaAndGammaGiveTheStoredSamples) {
           decoded(png_of({13, 11, 8, type, interlaced}, samples_of<std::uint8_t>(image), 13 * channels)),
           image));
     }
+  }
+}
+
+TEST(ForeignPng, AColourThatIsMarkedAsTransparentAddsNoChannel) {
+  for (const auto& [type, channels, depth] :
+       {std::tuple{PNG_COLOR_TYPE_GRAY, 1, 8}, {PNG_COLOR_TYPE_GRAY, 1, 16}, {PNG_COLOR_TYPE_RGB, 3, 8}}) {
+    const std::vector<std::uint8_t> packed = {0, 1, 2, 3, 1, 1, 1, 1, 1, 1, 7, 255};
+    const int width = 12 / channels / (depth / 8);
+    const Bytes bytes = png_of(
+        {.width = width, .height = 1, .depth = depth, .type = type, .marks_a_colour = true}, packed, 0);
+    const Decoded read = decode(std::as_bytes(std::span(bytes)), "foreign", {});
+    EXPECT_EQ(read.image.channels, channels);
+    EXPECT_EQ(read.image.samples.size(), packed.size());
+    if (depth == 8) {
+      EXPECT_EQ(samples_of<std::uint8_t>(read.image), packed);
+    }
+    ASSERT_EQ(read.notes.size(), 1u);
+    EXPECT_NE(read.notes[0].find("tRNS"), std::string::npos);
   }
 }
 

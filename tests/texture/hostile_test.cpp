@@ -20,7 +20,7 @@ Bytes valid_file(const std::string& name) {
       case 'w':
         return random_image({5, 4}, name.ends_with(".dds") ? 4 : 3, SampleType::u16);
       case 'v':
-        return random_image({5, 4, 3}, 2, SampleType::u8);
+        return random_image({5, 4, 3}, 2, name.ends_with(".exr") ? SampleType::f32 : SampleType::u8);
       default:
         return random_image({5, 4}, name.ends_with(".dds") ? 4 : 3, SampleType::u8);
     }
@@ -29,9 +29,9 @@ Bytes valid_file(const std::string& name) {
   return encode(name, image, metadata);
 }
 
-const std::vector<std::string> kFiles = {"b.png",  "w.png",  "f.exr",  "b.tif", "w.tif", "f.tif",
-                                         "b.bin",  "f.bin",  "v.bin",  "b.h",   "f.h",   "v.h",
-                                         "b.ktx2", "f.ktx2", "v.ktx2", "b.dds", "w.dds", "v.dds"};
+const std::vector<std::string> kFiles = {"b.png",  "w.png", "f.exr", "b.tif", "w.tif", "f.tif",  "b.bin",
+                                         "f.bin",  "v.bin", "b.h",   "f.h",   "v.h",   "b.ktx2", "f.ktx2",
+                                         "v.ktx2", "b.dds", "w.dds", "v.dds", "v.exr"};
 
 /// Decodes; true if an image came out. Anything but a bn::Error fails the test.
 bool survives(const Bytes& bytes, const Execution& execution = {.memory_limit_bytes = 64 << 20}) {

@@ -32,7 +32,8 @@ std::vector<Case> cases() {
 }
 
 bool holds_volumes(std::string_view extension) {
-  return extension == ".bin" || extension == ".h" || extension == ".ktx2" || extension == ".dds";
+  return extension == ".bin" || extension == ".h" || extension == ".ktx2" || extension == ".dds" ||
+         extension == ".exr";
 }
 
 class RoundTrip : public testing::TestWithParam<Case> {};

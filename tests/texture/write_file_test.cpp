@@ -57,6 +57,7 @@ const FileCalls kScripted{
       return step('w') ? -1 : FileCalls::system().write(file, bytes, std::min(count, script.most));
     },
     .fsync = [](int file) { return step('s') ? -1 : FileCalls::system().fsync(file); },
+    .chmod = [](int file, mode_t mode) { return step('p') ? -1 : FileCalls::system().chmod(file, mode); },
     .link = [](int file, int folder,
                const char* name) { return step('l') ? -1 : FileCalls::system().link(file, folder, name); },
     .rename = [](int folder, const char* from,
@@ -238,6 +239,71 @@ TEST(WriteFileForReal, AFileSizeLimitLeavesTheOldFile) {
   EXPECT_EQ(status, 0);
   EXPECT_EQ(bytes_of(folder / "a"), kOld);
   EXPECT_EQ(folder.names().size(), 1u);
+}
+
+mode_t mode_of(const std::filesystem::path& path) {
+  struct stat status = {};
+  EXPECT_EQ(::stat(path.c_str(), &status), 0);
+  return status.st_mode & 07777;
+}
+
+TEST_P(WriteFile, AFileThatIsReplacedKeepsItsPermissions) {
+  for (const mode_t mode : {0600u, 0640u, 0444u, 0755u}) {
+    ASSERT_EQ(::chmod(target.c_str(), mode), 0);
+    write_file(target, view(kNew), kScripted);
+    EXPECT_EQ(mode_of(target), mode);
+  }
+  // Before its first byte is written.
+  EXPECT_NE(script.log.find("pw"), std::string::npos) << script.log;
+}
+
+TEST_P(WriteFile, PermissionsThatCannotBeKeptLeaveTheOldFile) {
+  ASSERT_EQ(::chmod(target.c_str(), 0600), 0);
+  write_file(target, view(kOld), kScripted);
+  script.fail_at = static_cast<int>(script.log.find('p'));
+  script.error = EPERM;
+  script.calls = 0;
+  expect_error(ErrorCode::io, [&] { write_file(target, view(kNew), kScripted); });
+  EXPECT_EQ(bytes_of(target), kOld);
+  EXPECT_EQ(mode_of(target), 0600u);
+  EXPECT_EQ(folder.names().size(), 1u);
+}
+
+TEST_P(WriteFile, ANewFileHasThePermissionsThatTheUmaskLeaves) {
+  for (const auto& [mask, mode] : {std::pair{022u, 0644u}, {077u, 0600u}, {0u, 0666u}}) {
+    std::filesystem::remove(target);
+    const mode_t before = ::umask(mask);
+    write_file(target, view(kNew), kScripted);
+    ::umask(before);
+    EXPECT_EQ(mode_of(target), mode);
+  }
+}
+
+TEST(WriteFileForReal, PipesAndDevicesAreRefusedWithAReason) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("/dev/null", folder / "null");
+  std::filesystem::create_symlink(folder / "pipe", folder / "link");
+  for (const std::filesystem::path& path : {folder / "pipe", folder / "null", folder / "link"}) {
+    const auto error = error_of([&] { write_text_file(path, kNew); });
+    ASSERT_TRUE(error.has_value());
+    EXPECT_EQ(error->code, ErrorCode::io);
+    EXPECT_NE(error->what.find("pipes and devices"), std::string::npos) << error->what;
+    EXPECT_NE(error->remedy.find("file"), std::string::npos);
+    expect_error(ErrorCode::io, [&] { read_image(path); });
+  }
+}
+
+TEST(WriteFileForReal, StandardOutputThatIsAPipeIsNoLinkToNothing) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("/dev/stdout", folder / "link");
+  const int status = status_of_child([&] {
+    int ends[2];
+    if (::pipe(ends) != 0 || ::dup2(ends[1], 1) < 0) ::_exit(3);
+    const auto error = error_of([&] { write_text_file(folder / "link", kNew); });
+    if (!error || error->what.find("pipes") == std::string::npos) ::_exit(2);
+  });
+  EXPECT_EQ(status, 0);
 }
 
 TEST(WriteFileForReal, EmptyTextAndLongNames) {

@@ -315,6 +315,8 @@ Options RetargetEntry::output_options(std::size_t output) {
   return options;
 }
 
+SampleType RetargetEntry::output_type(std::size_t output) const { return natural_type(path_of(output)); }
+
 // --- making it -------------------------------------------------------------------------------------
 
 std::size_t RetargetEntry::input_output(const Entry& source) const {
@@ -562,7 +564,8 @@ Made RetargetEntry::made_elsewhere(const std::vector<Input>& inputs, const Retar
   if (source.moves()) made.facts.add("orbit_length", orbit_length(source.size(), options.step));
   made.tiles = {record_of(tile, options.motion)};
   made.notes = source_notes(source, options);
-  const Image moves = encode_moves(output.form == MoveForm::scatter ? tile.move : invert_moves(tile.move));
+  const Image moves =
+      encode_moves(output.form == MoveForm::scatter ? tile.move : invert_moves(tile.move), output_type(0));
   made.picture = [moves, tiles = made.tiles](std::size_t) { return Picture{.image = moves, .tiles = tiles}; };
   return made;
 }

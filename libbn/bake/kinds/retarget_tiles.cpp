@@ -49,13 +49,14 @@ Image encode_tile(const RetargetEntry& entry, std::size_t output, const MadeTile
                   const Source& source) {
   const bool gather = entry.outputs.at(output).form == MoveForm::gather;
   const MadeTile& form = gather ? inverse(tile, source.depth()) : tile;
-  if (!entry.volume) return encode_moves(form.tile.move);
+  const SampleType type = entry.output_type(output);
+  if (!entry.volume) return encode_moves(form.tile.move, type);
   const Shape shape = source.first().shape();
   Grid<Offset> move(shape);
   Grid<std::int8_t> move_z(shape);
   std::copy(form.tile.move.begin(), form.tile.move.end(), move.begin());
   std::copy(form.move_z.begin(), form.move_z.end(), move_z.begin());
-  return encode_moves(move, move_z);
+  return encode_moves(move, move_z, type);
 }
 
 MadeTile decode_tile(const RetargetEntry& entry, std::size_t output, const Image& image) {

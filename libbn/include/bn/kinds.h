@@ -134,7 +134,8 @@ class RetargetEntry : public EntryOf<RetargetEntry, RetargetOutput> {
   void check(const Complain& complain) const override;
   void default_output(std::size_t output) override;
   Options output_options(std::size_t output) override;
-  SampleType output_type(std::size_t) const override { return SampleType::u8; }
+  /// 8bit; float in .exr, which holds nothing else.
+  SampleType output_type(std::size_t output) const override;
   int output_channels(std::size_t output) const override;
   std::size_t input_output(const Entry& source) const override;
   void check_inputs(const std::vector<Shape>& shapes, const Complain& complain) const override;

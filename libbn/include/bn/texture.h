@@ -104,32 +104,34 @@ struct FileContent {
   Image image;
   SliceKind slices = SliceKind::layers;  ///< how a KTX2 or DDS holds several slices
   /// What is worth knowing of the file beside its samples: mip levels left out, a flag for sRGB or
-  /// premultiplied alpha. No error.
+  /// premultiplied alpha, several parts, a maxval. No error.
   std::vector<std::string> notes;
+  /// What an EXR calls its channels, in their order: R, G, B and A first, then by the alphabet. Empty in
+  /// formats without such names.
+  std::vector<std::string> channel_names;
   std::optional<Metadata> metadata;  ///< absent in files that this toolkit did not write
   /// Why metadata of ours is there and cannot be read (cut short, edited, from a newer version); empty
   /// otherwise. The picture stands; whoever needs the metadata treats a fault as an error.
   std::string metadata_fault;
 };
 
-/// Reads the first picture of a PNG, EXR or TIFF file, of KTX2, DDS and our own .bin and .h (all known by
-/// their content), and of HDR, JPEG, PFM, PGM, PPM and TGA (known by the extension). Samples are those
-/// stored: no colour management, no multiplication by alpha. Palettes and 1, 2 and 4 bit grey are
-/// expanded to 8bit, half is widened to float; signed and 32 bit integers become floats of the same
-/// value, rounded to 24 bits; double is refused.
-/// Recomputes nothing: a pixel hash that does not fit is for the caller to compare.
-/// Hostile headers are refused before memory is taken: sides 1..65536, channels 1..64, file and
-/// decoded size together within execution.memory_limit_bytes, at most 10,000 decoded bytes a file byte.
-/// Only regular files are read. Thread safe. execution.stop is honoured, threads are not used.
-/// A file that holds several slices is refused, so that no caller takes a volume for a picture:
-/// read_volume() of bn/volume.h reads it.
-/// Errors: io (cannot be opened or read), invalid_input (not an image, truncated, corrupt, deep or
-/// volumetric), over_limit, cancelled.
+/// Reads PNG, EXR, TIFF, KTX2, DDS, our own .bin and .h, BMP, GIF, HDR, JPEG, PBM, PGM, PPM, PFM and WebP
+/// (all known by their content), and TGA (known by the extension). Samples are those stored: no colour
+/// management, no multiplication by alpha, no scaling to a maxval. Palettes and 1, 2 and 4 bit grey are
+/// expanded to 8bit, half is widened to float; signed and 32 bit integers become floats of the same value,
+/// rounded to 24 bits; what could only be read converted is refused (double; TIFF of grey from white to
+/// black, YCbCr or Lab; JPEG of CMYK). docs/files.md has the whole list. Recomputes nothing: a pixel hash
+/// that does not fit is for the caller to compare. Hostile headers are refused before memory is taken:
+/// sides 1..65536, channels 1..64, file and decoded size together within execution.memory_limit_bytes, at
+/// most 10,000 decoded bytes a file byte. Only regular files are read. Thread safe. execution.stop is
+/// honoured, threads are not used. A file that holds several slices is refused, so that no caller takes a
+/// volume for a picture: read_volume() of bn/volume.h reads it. Errors: io (cannot be opened or read; a pipe
+/// or device), invalid_input (not an image, truncated, corrupt, deep or volumetric), over_limit, cancelled.
 FileContent read_image(const std::filesystem::path& path, const Execution& execution = {});
 
 /// Writes `image` in the format the extension names (upper or lower case):
 ///   .png         8bit, 16bit; 1..4 channels (the second of two and the fourth are straight alpha)
-///   .exr         float
+///   .exr         float; volumes, a part a slice
 ///   .tif, .tiff  8bit, 16bit, float
 ///   .bin         8bit, 16bit, half, float; volumes; layout in docs/files.md
 ///   .h           8bit, 16bit, float; volumes; no NaN or infinity
@@ -184,10 +186,12 @@ Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type);
 /// than 64, masks of different shapes).
 Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type);
 
-/// Moves as 8bit RGB: red = x + 128, green = y + 128, blue = 0. Each component -128..127, checked.
-/// Errors: invalid_input (a component that does not fit, a volume).
-Image encode_moves(const Grid<Offset>& move);
-/// The inverse. Errors: invalid_input unless 8bit with at least two channels, and of one slice.
+/// Moves as RGB. 8bit: red = x + 128, green = y + 128, blue = 0. Float, for formats that hold nothing else:
+/// red = x, green = y, blue = 0. Each component -128..127, checked. Errors: invalid_input (a component that
+/// does not fit, a volume, another sample type).
+Image encode_moves(const Grid<Offset>& move, SampleType type = SampleType::u8);
+/// The inverse. Errors: invalid_input unless 8bit or float with at least two channels, of one slice, and, of
+/// floats, whole numbers -128..127.
 Grid<Offset> decode_moves(const Image& image);
 
 /// Moves in a volume: `z` is the third axis of `move`, and of the same shape.
@@ -195,10 +199,12 @@ struct VolumeMoves {
   Grid<Offset> move;
   Grid<std::int8_t> z;
 };
-/// Moves in a volume as 8bit RGB: red = x + 128, green = y + 128, blue = z + 128; as many slices.
-/// Errors: invalid_input (an x or y outside -128..127, grids of different shapes).
-Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z);
-/// The inverse. Errors: invalid_input unless 8bit with at least three channels.
+/// Moves in a volume as RGB, of as many slices. 8bit: red = x + 128, green = y + 128, blue = z + 128. Float:
+/// red = x, green = y, blue = z. Errors: invalid_input (an x or y outside -128..127, grids of different
+/// shapes, another sample type).
+Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z, SampleType type = SampleType::u8);
+/// The inverse. Errors: invalid_input unless 8bit or float with at least three channels, and, of floats,
+/// whole numbers -128..127.
 VolumeMoves decode_volume_moves(const Image& image);
 
 /// One channel of an image, for packing.

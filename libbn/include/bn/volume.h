@@ -30,6 +30,9 @@ std::filesystem::path numbered_path(const std::filesystem::path& pattern, int nu
 /// Left out are hidden files (their names begin with a dot), what is no regular file, and contact sheets.
 /// Errors: io (no such folder, no permission).
 std::vector<std::filesystem::path> image_files(const std::filesystem::path& folder);
+/// The same of a folder and all folders below it but hidden ones; what cannot be listed below it is passed
+/// over.
+std::vector<std::filesystem::path> image_files_below(const std::filesystem::path& folder);
 
 /// The files that hold the slices of a volume.
 struct SliceFiles {
@@ -60,7 +63,8 @@ struct Volume {
   /// first file as it stands on disk, not that of `image` where slices were put together or an atlas was
   /// cut.)
   bool as_recorded = true;
-  std::vector<std::string> notes;  ///< of the files and of their order
+  std::vector<std::string> notes;          ///< of the files and of their order
+  std::vector<std::string> channel_names;  ///< of the first file, as in FileContent
 };
 
 /// Reads a volume, or a single picture as one of depth 1. All slices must have the same size, channels and
@@ -78,12 +82,12 @@ struct VolumeOutput {
   AtlasLayout atlas = {};                ///< columns > 0: one picture; rows need not be given
 };
 /// Writes `volume`, in this order of preference: a file a slice, numbered from 0, if `path` has a place for a
-/// number; one picture if `output.atlas` says so; one file in a format that holds volumes (.ktx2, .dds, .bin,
-/// .h). A volume of one slice may go to any format as a picture. Every file is written as by write_image(),
-/// each with the hash of its own pixels. Nothing is written before all paths have been checked; a disk that
-/// fills up later leaves whole files, some old, some new. Returns the files. Errors: those of write_image();
-/// invalid_input (several slices for one picture; files that a reader of the pattern would take for further
-/// slices; columns that do not divide the slices).
+/// number; one picture if `output.atlas` says so; one file in a format that holds volumes (.ktx2, .dds, .exr,
+/// .bin, .h). A volume of one slice may go to any format as a picture. Every file is written as by
+/// write_image(), each with the hash of its own pixels. Nothing is written before all paths have been
+/// checked; a disk that fills up later leaves whole files, some old, some new. Returns the files. Errors:
+/// those of write_image(); invalid_input (several slices for one picture; files that a reader of the pattern
+/// would take for further slices; columns that do not divide the slices).
 std::vector<std::filesystem::path> write_volume(const std::filesystem::path& path, const Image& volume,
                                                 const Metadata& metadata, const VolumeOutput& output = {});
 
