@@ -1,6 +1,7 @@
 #include "core/progress.h"
 
 #include <fmt/format.h>
+#include <sys/mman.h>
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -37,9 +38,15 @@ int threads_to_be_had(int wanted) {
   } catch (const std::system_error&) {  // as many as there are
   } catch (const std::bad_alloc&) {
   }
+  // What a worker allocates when it starts cannot fail with grace either, so there must be room for it.
+  constexpr std::size_t kRoomBytes = std::size_t{64} << 20;
+  void* const room =
+      ::mmap(nullptr, kRoomBytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  const bool has_room = room != MAP_FAILED;
+  if (has_room) ::munmap(room, kRoomBytes);
   done = true;
   done.notify_all();
-  return static_cast<int>(others.size()) + 1;
+  return has_room ? static_cast<int>(others.size()) + 1 : 1;
 }
 
 /// This thread's arena of exactly `threads` slots. Kept from call to call, since making one costs more

@@ -60,9 +60,9 @@ TEST(Command, LittleAddressSpaceEndsInAResultOrAMessage) {
 #endif
   const ScratchFolder scratch;
   int made = 0, refused = 0;
-  for (int limit = 12'000; limit <= 120'000; limit += 3'000) {
+  for (int limit = 12'000; limit <= 120'000; limit += 6'000) {
     const auto result =
-        run_bn({"noise", "void-and-cluster", "--size", "256x256", "--threads", "4", "-o", "m.png"},
+        run_bn({"noise", "void-and-cluster", "--size", "1024x1024", "--threads", "4", "-o", "m.png"},
                {.folder = scratch.path(), .shell_prefix = "ulimit -v " + std::to_string(limit)});
     if (result.err.find("cannot allocate") != std::string::npos || result.exit_code == 127)
       continue;  // the loader's
