@@ -9,8 +9,8 @@
 // there to the least in that one's reach, and so on; energies fall along the way, so it ends at a voxel that
 // leads. That is set, and the one before, which waited for it, looks again. Each look either sets a voxel or
 // adds one to the way that will be set, so there are two looks a voxel, and they are at columns that the last
-// additions have brought into the cache. A way that leaves the region is given up: its end belongs to another
-// visit.
+// additions have brought into the cache. A way goes wherever it must, so no thread ever waits for another;
+// one that comes to where another thread is at work is given up, and tried again later.
 //
 // Invariant. The keys (energy, index) along the way fall, and those further back can only have grown since;
 // so no column is on it twice.
@@ -23,6 +23,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "noise/add_column-inl.h"
@@ -50,7 +51,8 @@ class Surroundings {
         width_(kernel.last_x - kernel.first_x + 1),
         height_(kernel.last_y - kernel.first_y + 1),
         copy_stride_(std::max(width_, kLanes)),
-        copy_(static_cast<std::size_t>(copy_stride_ * height_), kFullColumn) {}
+        copy_(static_cast<std::size_t>(copy_stride_ * height_), kFullColumn),
+        least_of_rows_(static_cast<std::size_t>(kLanes * height_)) {}
 
   /// Shows the columns that (x, y) has in reach. Valid until they change.
   HWY_INLINE void look(const std::int32_t* least, Column c) {
@@ -65,25 +67,28 @@ class Surroundings {
     }
   }
 
-  HWY_INLINE std::int32_t least() const {
+  HWY_INLINE std::int32_t least() {
     const D d;
     auto least = hn::Set(d, kFullColumn);
     const std::int32_t* row = view_;
     for (int y = 0; y < height_; ++y, row += stride_) {
-      for (int x = 0; x < width_ - kLanes; x += kLanes) least = hn::Min(least, hn::LoadU(d, row + x));
-      least = hn::Min(least, hn::LoadU(d, row + last_vector()));
+      auto of_row = hn::LoadU(d, row + last_vector());
+      for (int x = 0; x < width_ - kLanes; x += kLanes) of_row = hn::Min(of_row, hn::LoadU(d, row + x));
+      hn::StoreU(of_row, d, least_of_row(y));
+      least = hn::Min(least, of_row);
     }
     return hn::GetLane(hn::MinOfLanes(d, least));
   }
 
   /// Calls body(column) for the columns whose least energy is `energy`, row by row, until it returns true.
-  /// Some may come twice.
+  /// Some may come twice. Call least() before.
   template <class Body>
-  HWY_INLINE void find(std::int32_t energy, const Body& body) const {
+  HWY_INLINE void find(std::int32_t energy, const Body& body) {
     const D d;
     const auto wanted = hn::Set(d, energy);
     const std::int32_t* row = view_;
     for (int y = 0; y < height_; ++y, row += stride_) {
+      if (HWY_LIKELY(hn::AllFalse(d, hn::Eq(hn::LoadU(d, least_of_row(y)), wanted)))) continue;
       for (int x = 0;; x += kLanes) {
         x = std::min(x, last_vector());
         if (HWY_UNLIKELY(!hn::AllFalse(d, hn::Eq(hn::LoadU(d, row + x), wanted)))) {
@@ -102,6 +107,7 @@ class Surroundings {
   using D = hn::CappedTag<std::int32_t, 8>;
   static constexpr int kLanes = static_cast<int>(hn::MaxLanes(D()));
 
+  std::int32_t* least_of_row(int y) { return least_of_rows_.data() + y * kLanes; }
   int last_vector() const { return std::max(width_ - kLanes, 0); }
   static int wrap_once(int value, int period) {
     return value < 0 ? value + period : value >= period ? value - period : value;
@@ -126,6 +132,7 @@ class Surroundings {
   const int width_, height_;
   const int copy_stride_;
   std::vector<std::int32_t> copy_;
+  std::vector<std::int32_t> least_of_rows_;  // the least in every kLanes-th column, a vector a row
   const std::int32_t* view_ = nullptr;
   std::ptrdiff_t stride_ = 0;
   int x_ = 0, y_ = 0;  // of the upper left column, perhaps outside the torus
@@ -136,69 +143,64 @@ class ColumnFiller {
  public:
   using Lane = hn::TFromD<D>;
 
-  ColumnFiller(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel, const ColumnRect& region,
+  ColumnFiller(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel, RowLocks& locks,
                std::uint32_t* energy_when_set)
       : field_(field),
         adder_(field, kernel),
         around_(field.columns(), kernel),
-        energy_when_set_(energy_when_set),
-        region_(region) {}
+        held_(locks),
+        energy_when_set_(energy_when_set) {}
 
-  std::int64_t run(const ColumnVisit& visit) {
-    const auto [width, height] = field_.columns();
-    std::int64_t count = 0;
-    for (int pass = 0; pass < visit.passes; ++pass) {
-      const int moved = visit.moves * pass / visit.passes;
-      if (region_.width < width) region_.left = wrap(visit.region.left - moved, width);
-      if (region_.height < height) region_.top = wrap(visit.region.top - moved, height);
-      count += pass_over(visit.phase + pass);
+  void run(RowRange rows, const std::function<void(std::int64_t)>& progress) {
+    for (bool is_full = false; !is_full;) {
+      is_full = true;
+      for (int first = 0; first < rows.count; first += kBandRows) {
+        const int count = std::min(kBandRows, rows.count - first);
+        is_full &= fill_band({rows.first + first, count});
+        held_.release();
+        progress(std::exchange(set_, 0));
+      }
     }
-    return count;
   }
 
  private:
-  /// Every so many columns is a start, along either axis; others in turn.
+  /// Columns are tried in turns, every so many along either axis, so that a band fills evenly.
   static constexpr int kStartStep = 4;
+  /// Bands follow each other in the cache.
+  static constexpr int kBandRows = 16;
 
-  std::int64_t pass_over(int phase) {
-    std::int64_t count = 0;
-    const auto [width, height] = field_.columns();
-    for (int y = phase / kStartStep % kStartStep; y < region_.height; y += kStartStep) {
-      for (int x = phase % kStartStep; x < region_.width; x += kStartStep) {
-        count += force({wrap(region_.left + x, width), wrap(region_.top + y, height)});
+  /// Sets a voxel of every column at least, where no other thread is at work; whether all are full.
+  bool fill_band(RowRange rows) {
+    bool is_full = true;
+    for (int phase = 0; phase < kStartStep * kStartStep; ++phase) {
+      for (int y = phase / kStartStep; y < rows.count; y += kStartStep) {
+        for (int x = phase % kStartStep; x < field_.columns().width; x += kStartStep) {
+          is_full &= force({x, rows.first + y});
+        }
       }
     }
-    return count;
+    return is_full;
   }
 
   std::int64_t index(Column c) const { return std::int64_t{c.y} * field_.columns().width + c.x; }
   std::int32_t least(Column c) const { return field_.least[static_cast<std::size_t>(index(c))]; }
 
-  bool in_region(Column c) const {
-    const auto [width, height] = field_.columns();
-    return wrap(c.x - region_.left, width) < region_.width &&
-           wrap(c.y - region_.top, height) < region_.height;
-  }
-
-  /// Sets the least voxel of a column, and what must come before it; returns how many were set.
-  std::int64_t force(Column start) {
-    std::int64_t count = 0;
+  /// Sets the least voxel of a column, and what must come before it; whether it was full already.
+  bool force(Column start) {
+    if (!held_.move_to(start.y)) return false;
+    if (least(start) == kFullColumn) return true;
     way_.assign(1, start);
-    while (!way_.empty()) {
+    while (!way_.empty() && held_.wait_for(way_.back().y)) {
       const Column last = way_.back();
-      if (least(last) == kFullColumn) break;
-      const Column first = first_in_reach(last);
-      if (first == last) {
-        set(last);
-        ++count;
-        way_.pop_back();
-      } else if (in_region(first)) {
+      const Column first = least(last) == kFullColumn ? last : first_in_reach(last);
+      if (first != last) {
         way_.push_back(first);
-      } else {
-        break;
+        continue;
       }
+      if (least(last) != kFullColumn) set(last);  // or another thread has been here
+      way_.pop_back();
     }
-    return count;
+    return false;
   }
 
   /// The column in reach whose least voxel comes first, or one whose least voxel comes before that of `c`.
@@ -240,33 +242,41 @@ class ColumnFiller {
     field_.column(at)[slice] = Lanes<Lane>::kSet;
     adder_.add(c.x, c.y, slice);
     adder_.update(at);
+    ++set_;
   }
 
   ColumnField<Lane>& field_;
   ColumnAdder<D> adder_;
   Surroundings around_;
+  RowLocks::Holder held_;
   std::uint32_t* const energy_when_set_;
-  ColumnRect region_;
+  std::int64_t set_ = 0;
   std::vector<Column> way_;
 };
 
-template <class Lane, int kCap>
-using Lanes16 = hn::CappedTag<Lane, kCap>;
-
-std::int64_t fill_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                               const ColumnVisit& visit, std::uint32_t* energy_when_set) {
-  const auto fill = [&](auto d) {
-    return ColumnFiller<decltype(d)>(field, kernel, visit.region, energy_when_set).run(visit);
-  };
-  if (field.stride() % 32 == 0) return fill(hn::CappedTag<std::uint16_t, 32>());
-  if (field.stride() % 16 == 0) return fill(hn::CappedTag<std::uint16_t, 16>());
-  return fill(hn::CappedTag<std::uint16_t, 8>());
+template <class D>
+void fill(D, ColumnField<hn::TFromD<D>>& field, const ColumnKernel<hn::TFromD<D>>& kernel, RowRange rows,
+          RowLocks& locks, std::uint32_t* energy_when_set,
+          const std::function<void(std::int64_t)>& progress) {
+  ColumnFiller<D>(field, kernel, locks, energy_when_set).run(rows, progress);
 }
 
-std::int64_t fill_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                               const ColumnVisit& visit, std::uint32_t* energy_when_set) {
-  using D = hn::CappedTag<std::int32_t, 8>;
-  return ColumnFiller<D>(field, kernel, visit.region, energy_when_set).run(visit);
+void fill_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
+                       RowRange rows, RowLocks& locks, std::uint32_t* energy_when_set,
+                       const std::function<void(std::int64_t)>& progress) {
+  if (field.stride() % 32 == 0) {
+    fill(hn::CappedTag<std::uint16_t, 32>(), field, kernel, rows, locks, energy_when_set, progress);
+  } else if (field.stride() % 16 == 0) {
+    fill(hn::CappedTag<std::uint16_t, 16>(), field, kernel, rows, locks, energy_when_set, progress);
+  } else {
+    fill(hn::CappedTag<std::uint16_t, 8>(), field, kernel, rows, locks, energy_when_set, progress);
+  }
+}
+
+void fill_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
+                       RowRange rows, RowLocks& locks, std::uint32_t* energy_when_set,
+                       const std::function<void(std::int64_t)>& progress) {
+  fill(hn::CappedTag<std::int32_t, 8>(), field, kernel, rows, locks, energy_when_set, progress);
 }
 
 }  // namespace
@@ -282,15 +292,17 @@ HWY_EXPORT(fill_32_bits_here);
 }  // namespace
 
 template <>
-std::int64_t fill_columns(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                          const ColumnVisit& visit, std::uint32_t* energy_when_set) {
-  return HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(field, kernel, visit, energy_when_set);
+void fill_columns(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel, RowRange rows,
+                  RowLocks& locks, std::uint32_t* energy_when_set,
+                  const std::function<void(std::int64_t)>& progress) {
+  HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(field, kernel, rows, locks, energy_when_set, progress);
 }
 
 template <>
-std::int64_t fill_columns(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                          const ColumnVisit& visit, std::uint32_t* energy_when_set) {
-  return HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(field, kernel, visit, energy_when_set);
+void fill_columns(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel, RowRange rows,
+                  RowLocks& locks, std::uint32_t* energy_when_set,
+                  const std::function<void(std::int64_t)>& progress) {
+  HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(field, kernel, rows, locks, energy_when_set, progress);
 }
 
 }  // namespace bn::noise

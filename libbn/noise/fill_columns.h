@@ -3,33 +3,26 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "noise/column_field.h"
+#include "noise/row_locks.h"
 
 namespace bn::noise {
 
-/// A rectangle of columns on the torus: it may run across the seams, but never onto itself.
-struct ColumnRect {
-  int left;
-  int top;
-  int width;
-  int height;
+/// The columns that a thread fills: rows first..first+count-1.
+struct RowRange {
+  int first;
+  int count;
 };
 
-/// One visit to a region.
-struct ColumnVisit {
-  ColumnRect region;
-  int passes;  ///< how often starts all over the region are tried
-  int moves;   ///< how far the region moves to the left and up meanwhile, along the axes it does not span
-  int phase;   ///< which of the columns are starts; count it up from visit to visit
-};
-
-/// Sets voxels in the region that are the least (energy, index) of all unset voxels in reach when they are
-/// set. Writes the energy of each when it was set to energy_when_set[(slice * height + y) * width + x];
-/// returns how many were set. Writes and reads nothing farther than the reach of a kernel from where the
-/// region has been.
+/// Sets all voxels of the rows, and what must come before them wherever it lies, always voxels that are the
+/// least (energy, index) of all unset voxels in reach when they are set. Threads that share `locks` may do
+/// the same for other rows meanwhile. Writes the energy of each voxel when it was set to
+/// energy_when_set[(slice * height + y) * width + x]. Calls progress(voxels set since the last call) every
+/// few milliseconds at most; it may throw.
 template <class Lane>
-std::int64_t fill_columns(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel,
-                          const ColumnVisit& visit, std::uint32_t* energy_when_set);
+void fill_columns(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel, RowRange rows, RowLocks& locks,
+                  std::uint32_t* energy_when_set, const std::function<void(std::int64_t)>& progress);
 
 }  // namespace bn::noise

@@ -1,7 +1,7 @@
 #include "noise/volume_order.h"
 
+#include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <optional>
 
 #include "bn/random.h"
@@ -26,28 +26,34 @@ void write_start_energies(ColumnField<Lane>& field, std::uint64_t seed, const Ex
   });
 }
 
+/// How many threads can work without getting into each other's way all the time.
+int useful_threads(const VolumeWeights& weights, const Execution& execution) {
+  const int rows_a_thread = 4 * weights.reach_y() + 2 * RowLocks::kRows;
+  return std::clamp(weights.sides().y / rows_a_thread, 1, thread_count(execution));
+}
+
 /// Nothing if a voxel was too far above its column to be represented.
 template <class Lane>
 std::optional<Grid<std::uint32_t>> fill(const VolumeWeights& weights, std::uint64_t seed,
                                         const Execution& execution, ProgressMeter& meter) {
   const TorusSides& sides = weights.sides();
-  const Extent columns{sides.x, sides.y};
-  ColumnField<Lane> field(columns, weights.slices());
+  ColumnField<Lane> field({sides.x, sides.y}, weights.slices());
   write_start_energies(field, seed, execution);
   const ColumnKernel<Lane> kernel(weights);
   Grid<std::uint32_t> energies({sides.x, sides.y, weights.slices()});
-  std::int64_t left = static_cast<std::int64_t>(energies.count());
-  int fruitless = 0;
-  for (int visit = 0; left > 0; ++visit) {
-    throw_if_stopped(execution);
-    const std::int64_t now = fill_columns(
-        field, kernel, {.region = {0, 0, sides.x, sides.y}, .passes = 1, .moves = 0, .phase = visit},
-        energies.data());
-    left -= now;
-    meter.advance(static_cast<std::uint64_t>(now));
-    fruitless = now == 0 ? fruitless + 1 : 0;
-    if (fruitless == 16) return std::nullopt;
-  }
+  const int threads = useful_threads(weights, execution);
+  RowLocks locks(sides.y, weights.reach_y(), threads == 1);
+  std::atomic<std::int64_t> left = static_cast<std::int64_t>(energies.count());
+  parallel_for(execution, threads, [&](std::int64_t i) {
+    const int first = static_cast<int>(sides.y * i / threads);
+    const int end = static_cast<int>(sides.y * (i + 1) / threads);
+    fill_columns(field, kernel, {first, end - first}, locks, energies.data(), [&](std::int64_t now) {
+      throw_if_stopped(execution);
+      left -= now;
+      meter.advance(static_cast<std::uint64_t>(now));
+    });
+  });
+  if (left > 0) return std::nullopt;
   return energies;
 }
 
