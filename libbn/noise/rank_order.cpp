@@ -21,6 +21,9 @@ constexpr int kDigitBits = 10;
 constexpr std::size_t kDigits = std::size_t{1} << kDigitBits;
 static_assert(kSetMark == 1 << 3 * kDigitBits);
 
+/// Of fewer energies, clearing the counts takes longer than comparing.
+constexpr std::uint32_t kFew = 256;
+
 using Counts = std::array<std::uint32_t, kDigits>;
 
 std::size_t high_digit(std::uint32_t energy) { return energy >> 2 * kDigitBits; }
@@ -32,9 +35,18 @@ void add_up(Counts& counts, std::uint32_t start) {
   for (std::uint32_t& count : counts) start += std::exchange(count, start);
 }
 
+/// rank_bucket() by comparing.
+void rank_few(std::uint32_t* energies, std::uint32_t count, std::uint32_t first) {
+  std::array<std::uint64_t, kFew> order;
+  for (std::uint32_t i = 0; i < count; ++i) order[i] = std::uint64_t{energies[i]} << 32 | i;
+  std::sort(order.begin(), order.begin() + count);
+  for (std::uint32_t i = 0; i < count; ++i) energies[static_cast<std::uint32_t>(order[i])] = first + i;
+}
+
 /// Replaces the `count` energies of one bucket by their ranks, from `first`; equal ones in the order they
 /// have.
 void rank_bucket(std::uint32_t* energies, std::uint32_t count, std::uint32_t first) {
+  if (count < kFew) return rank_few(energies, count, first);
   Counts low{};
   Counts middle{};
   for (std::uint32_t i = 0; i < count; ++i) {

@@ -34,6 +34,9 @@
 #include "core/refuse.h"
 #include "noise/fill_tile.h"
 #include "noise/filling_order.h"
+#include "noise/small_mask.h"
+#include "noise/sparse_ends.h"
+#include "noise/start_energies.h"
 #include "noise/void_order.h"
 
 namespace bn {
@@ -62,38 +65,6 @@ void check(const VoidAndClusterOptions& options) {
   }
 }
 
-/// The start energies of pixels in the order of their indices.
-class StartEnergies {
- public:
-  StartEnergies(std::uint64_t seed, std::uint64_t first)
-      : seed_(seed), index_(first), four_(bits() >> 16 * (first % 4)) {}
-
-  std::int32_t next() {
-    const auto energy = static_cast<std::int32_t>(four_ % kStartEnergyLimit);
-    four_ >>= 16;
-    if (++index_ % 4 == 0) four_ = bits();
-    return energy;
-  }
-
- private:
-  std::uint64_t bits() const { return random_bits(seed_, kStartStream, index_ / 4); }
-
-  std::uint64_t seed_;
-  std::uint64_t index_;
-  std::uint64_t four_;
-};
-
-/// Calls body(x, y, index, start energy) for every pixel, rows in parallel.
-template <class Body>
-void for_each_pixel(Extent size, std::uint64_t seed, const Execution& execution, const Body& body) {
-  const auto [width, height] = size;
-  parallel_for(execution, height, [&](std::int64_t y) {
-    auto index = static_cast<std::size_t>(y * width);
-    StartEnergies start(seed, index);
-    for (int x = 0; x < width; ++x, ++index) body(x, static_cast<int>(y), index, start.next());
-  });
-}
-
 /// Phase 2: gives the pixels whose rank is below `initial` the ranks in which clusters leave them last.
 void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel& kernel,
                      std::uint32_t initial, Grid<std::uint32_t>& ranks, const Execution& execution,
@@ -102,7 +73,7 @@ void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel&
   // carry the mark.
   const std::int32_t all = kernel.sum() + kStartEnergyLimit - 1;
   EnergyField field(options.size, kernel.radius(), kSetMark + all);
-  for_each_pixel(options.size, options.seed, execution,
+  for_each_pixel(options.size, options.seed, kStartStream, execution,
                  [&](int x, int y, std::size_t index, std::int32_t start) {
                    field.at(x, y) -= start + (ranks[index] < initial ? kSetMark : 0);
                  });
@@ -120,14 +91,31 @@ void rank_by_removal(const VoidAndClusterOptions& options, const GaussianKernel&
   }
 }
 
+/// Phases 1 and 3 on a torus where `first` points are set, which have the lowest ranks.
+Grid<std::uint32_t> fill_voids(Extent size, const PixelKernel& kernel, const std::vector<Pixel>& first,
+                               std::uint64_t seed, const Execution& execution, ProgressMeter& meter) {
+  EnergyField field(size, kernel.radius(), kSetMark);
+  write_start_energies(field, seed, kStartStream, execution);
+  const BlockKernel blocks(kernel, 1);
+  set_points(field, blocks, first);
+  const std::int64_t left = size.area() - std::ssize(first);
+  Grid<std::uint32_t> ranks = void_order(std::move(field), blocks, left, execution, meter);
+  if (!first.empty()) {
+    for (std::uint32_t& rank : ranks) rank += static_cast<std::uint32_t>(first.size());
+    for (std::uint32_t rank = 0; rank < first.size(); ++rank) ranks(first[rank].x, first[rank].y) = rank;
+  }
+  return ranks;
+}
+
 }  // namespace
 
 Grid<std::uint32_t> noise::filling_order(Extent size, const PixelKernel& kernel, std::uint64_t seed,
                                          const Execution& execution, ProgressMeter& meter) {
-  EnergyField field(size, kernel.radius(), kSetMark);
-  for_each_pixel(size, seed, execution,
-                 [&](int x, int y, std::size_t, std::int32_t start) { field.at(x, y) = start; });
-  return void_order(std::move(field), BlockKernel(kernel, 1), size.area(), execution, meter);
+  if (size.area() <= kSmallArea) return small_mask(size, kernel, seed);
+  const std::vector<Pixel> first = first_points(size, kernel, seed, execution);
+  Grid<std::uint32_t> ranks = fill_voids(size, kernel, first, seed, execution, meter);
+  reorder_last_holes(ranks, kernel, execution);
+  return ranks;
 }
 
 std::uint64_t noise::filling_order_bytes(Extent size) {
@@ -148,8 +136,13 @@ Grid<std::uint32_t> void_and_cluster(const VoidAndClusterOptions& options, const
 
   ProgressMeter meter(execution, count + initial);
   const GaussianKernel kernel(options.sigma_px, options.cutoff_px);
-  Grid<std::uint32_t> ranks = filling_order(options.size, kernel, options.seed, execution, meter);
-  if (initial > 0) rank_by_removal(options, kernel, initial, ranks, execution, meter);
+  Grid<std::uint32_t> ranks;
+  if (initial == 0) {
+    ranks = filling_order(options.size, kernel, options.seed, execution, meter);
+  } else {
+    ranks = fill_voids(options.size, kernel, {}, options.seed, execution, meter);
+    rank_by_removal(options, kernel, initial, ranks, execution, meter);
+  }
   meter.finish();
   return ranks;
 }

@@ -11,13 +11,14 @@
 namespace bn {
 
 /// Raised whenever the same options would give other bytes than before. Written into every file.
-inline constexpr int kVoidAndClusterVersion = 1;
+inline constexpr int kVoidAndClusterVersion = 2;
 
 /// What a void-and-cluster mask is made from. Equal options give equal masks, everywhere.
 struct VoidAndClusterOptions {
   Extent size{64, 64};           ///< each side 1..16384 pixels
   double sigma_px = 1.9;         ///< standard deviation of the Gaussian, 0.3..16 pixels
-  double initial_density = 0.0;  ///< share of the ranks ordered by removing clusters, 0..0.5; 0 suits best
+  double initial_density = 0.0;  ///< share of the ranks ordered by removing clusters, 0..0.5; 0 suits best,
+                                 ///< and only with 0 are the sparsest patterns evenly spread
   std::uint64_t seed = 1;        ///< any value; stream numbers are listed in void_and_cluster.cpp
   int cutoff_px = 0;             ///< kernel radius, 1..64 pixels; 0: where the weight rounds to zero
 };

@@ -22,7 +22,7 @@
 namespace bn {
 
 /// Raised whenever the same options would give other bytes than before. Written into every file.
-inline constexpr int kVolumeMaskVersion = 1;
+inline constexpr int kVolumeMaskVersion = 2;
 
 // --- kernels as data -------------------------------------------------------------------------------
 
