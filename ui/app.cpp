@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <new>
 #include <utility>
 
 #include "bn/error.h"
 #include "bn/version.h"
+#include "tools/failure.h"
 #include "ui/keys.h"
 #include "ui/texture_file.h"
 #include "ui/widgets.h"
@@ -104,7 +103,21 @@ void App::close() {
   write_session(session_, settings);
 }
 
-bool App::busy() const { return run.busy() || compare.busy() || texture.busy() || bake.busy(); }
+bool App::busy() const {
+  if (wanted_tab_ && *wanted_tab_ != tab_) return true;
+  // What a view has begun goes on only while it is drawn.
+  switch (tab_) {
+    case Tab::run:
+      return run.busy();
+    case Tab::compare:
+      return compare.busy();
+    case Tab::texture:
+      return texture.busy();
+    case Tab::bake:
+      return bake.busy();
+  }
+  return false;
+}
 
 void App::open(const std::filesystem::path& path) {
   // From here on folders may change, so the path is made whole.
@@ -137,28 +150,11 @@ void App::ask_open() {
 
 void App::report(const Error& error) {
   if (error.code() == ErrorCode::cancelled) return;
-  errors_.emplace_back(error.what());
+  errors_.push_back(error);
   if (errors_.size() > kMaxErrors) errors_.pop_front();
 }
 
-void App::report_in_flight() {
-  const auto other = [&](ErrorCode code, std::string what, std::string remedy) {
-    report(Error(
-        {.code = code, .what = std::move(what), .where = "", .limit = "", .remedy = std::move(remedy)}));
-  };
-  try {
-    throw;
-  } catch (const Error& error) {
-    report(error);
-  } catch (const std::bad_alloc&) {
-    other(ErrorCode::over_limit, "out of memory", "ask for less, or close other programs");
-  } catch (const std::filesystem::filesystem_error& error) {
-    other(ErrorCode::io, error.path1().string() + ": " + error.code().message(),
-          "check the path and its permissions");
-  } catch (const std::exception& defect) {
-    other(ErrorCode::io, std::string("a defect in bn-inspector: ") + defect.what(), "please report it");
-  }
-}
+void App::report_in_flight() { report(tools::error_in_flight("bn-inspector")); }
 
 void App::frame() {
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
@@ -276,9 +272,9 @@ void App::draw_errors(float height) {
   }
   for (auto error = errors_.rbegin(); error != errors_.rend(); ++error) {
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(error->c_str());
+    ImGui::TextUnformatted(error->what());
     ImGui::PopTextWrapPos();
-    if (error == errors_.rbegin()) items::record("Error", *error);
+    if (error == errors_.rbegin()) items::record("Error", error->what());
   }
   end_panel();
 }

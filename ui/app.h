@@ -66,7 +66,7 @@ class App {
   bool quit = false;
   std::filesystem::path screenshot_path;  ///< set: the main loop writes the frame there, and clears it
   Tab tab() const { return tab_; }
-  const std::deque<std::string>& errors() const { return errors_; }
+  const std::deque<Error>& errors() const { return errors_; }
 
  private:
   void parameters(Parameters& p);
@@ -91,7 +91,7 @@ class App {
   std::optional<Tab> wanted_tab_ = Tab::run;  ///< until the tab bar shows it
   FileChooser chooser_;
   bool help_wanted_ = false;
-  std::deque<std::string> errors_;
+  std::deque<Error> errors_;
   std::string status_ = "Drop a texture, a folder of slices or a recipe anywhere.";
 };
 

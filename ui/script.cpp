@@ -206,7 +206,7 @@ bool Script::before_frame(App& app) {
         continue;
       } else if (Clock::now() > deadline_) {
         fail(true, fmt::format("waited in vain for {}; it is: {}", fmt::join(condition_, " "), found),
-             app.errors().empty() ? "" : "the window says: " + app.errors().back());
+             app.errors().empty() ? "" : fmt::format("the window says: {}", app.errors().back().what()));
       } else {
         // As a window does: what is waited for has the processor in between.
         std::this_thread::sleep_for(std::chrono::milliseconds(16));

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 #include "bn/bake.h"
 #include "bn/error.h"
@@ -256,9 +257,46 @@ TEST(Inspector, SaysWhyItCannotStart) {
   const Outcome old = here.script("wait 1", "", "MESA_GL_VERSION_OVERRIDE=2.1");
   EXPECT_EQ(old.exit_code, 2);
   EXPECT_NE(old.output.find("OpenGL is older than 3.3"), std::string::npos) << old.output;
-  EXPECT_EQ(here.shell(BN_INSPECTOR " --headless").exit_code, 1);
+  const auto refusal = [&](const std::string& arguments, int exit_code, const char* message) {
+    const Outcome outcome = here.shell(BN_INSPECTOR " " + arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments;
+    EXPECT_NE(outcome.output.find(message), std::string::npos) << outcome.output;
+  };
+  refusal("--headless", 1, "add --screenshot OUT.png or --script FILE");
+  refusal("--hlp", 1, "did you mean --help?");
+  refusal("one two", 1, "unexpected argument");
+  refusal("--headless --screenshot shot.png missing.png", 2, "missing.png: does not exist");
+  refusal("missing.toml", 2, "missing.toml: does not exist");
+  refusal("--width 10", 1, "320..8192");
   EXPECT_EQ(here.shell(BN_INSPECTOR " --headless --screenshot nowhere/shot.png").exit_code, 2);
   EXPECT_EQ(here.shell(BN_INSPECTOR " --headless --script nowhere.script").exit_code, 2);
+}
+
+TEST(Inspector, DrawsAPictureWithoutAScript) {
+  const Workplace here;
+  here.write_mask("mask.png", 64);
+  expect_success(here.shell(BN_INSPECTOR " --headless --screenshot run.png"));
+  expect_success(here.shell(BN_INSPECTOR " --headless --screenshot mask_view.png mask.png"));
+  const Image run = read_image(here / "run.png").image, mask = read_image(here / "mask_view.png").image;
+  EXPECT_GT(contrast(run, {0.28, 0.2, 0.6, 0.5}), 20.0) << "the pictures of a run to be";
+  EXPECT_GT(contrast(mask, {0.05, 0.2, 0.40, 0.8}), 50.0) << "the mask";
+  EXPECT_GT(contrast(mask, {0.47, 0.1, 0.69, 0.45}), 20.0) << "its spectrum is there";
+  // What the window says of a bad file is said to whoever has no window, and the picture shows it too.
+  std::ofstream(here / "broken.png") << "no image at all";
+  const Outcome broken = here.shell(BN_INSPECTOR " --headless --screenshot broken_view.png broken.png");
+  EXPECT_EQ(broken.exit_code, 3);
+  EXPECT_NE(broken.output.find("broken.png"), std::string::npos) << broken.output;
+  EXPECT_TRUE(std::filesystem::exists(here / "broken_view.png"));
+}
+
+TEST(Inspector, HelpsAsBnDoes) {
+  const Workplace here;
+  const Outcome help = here.shell(BN_INSPECTOR " --help");
+  EXPECT_EQ(help.exit_code, 0);
+  EXPECT_TRUE(help.output.starts_with("Examples\n")) << help.output;
+  EXPECT_NE(help.output.find("Usage: bn-inspector [FILE] [OPTIONS]\n"), std::string::npos) << help.output;
+  std::istringstream lines(help.output);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
 }
 
 TEST(Inspector, ScriptsFailWithTheirLine) {
