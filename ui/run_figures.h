@@ -18,6 +18,7 @@ struct RunEntry {
   int number = 0;  ///< counted from 1 in the session
   std::shared_ptr<const Source> source;
   RunSettings settings;
+  std::string settings_text;  ///< RunSettings::all_text()
   std::shared_ptr<Run> run;
   std::shared_ptr<Optimum> optimum;  ///< null: this energy has no exact solver
 

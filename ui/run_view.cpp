@@ -218,8 +218,12 @@ void RunView::draw_standing() {
             : !entry_->optimum           ? "none"
             : entry_->optimum->solving() ? "solving …"
                                          : "failed";
+  const bool outdated = entry_ && entry_->settings_text != settings_.all_text();
+  const bool ended = entry_ && standing.phase >= Phase::finished;
   const std::pair<const char*, std::string> cells[] = {
-      {"State", entry_ ? phase_name(standing.phase) : "no run yet"},
+      {"State", !entry_             ? "no run yet"
+                : outdated && ended ? "changed"
+                                    : phase_name(standing.phase)},
       {"Energy", any ? fmt::format("{}{}", energy, percent_of_start(energy)) : "–"},
       {"Optimum", bound},
       {"Gap", percent_text(gap)},
@@ -252,13 +256,25 @@ void RunView::draw_standing() {
   }
   const auto rows = static_cast<float>((kCells + columns - 1) / columns);
   const float cell = 2 * ImGui::GetTextLineHeightWithSpacing();
-  begin_panel("standing", {0, rows * cell + ImGui::GetFrameHeight() + 2 * style.WindowPadding.y});
+  begin_panel("standing",
+              {0, rows * cell + ImGui::GetFrameHeight() +
+                      (outdated ? ImGui::GetTextLineHeightWithSpacing() : 0.0f) + 2 * style.WindowPadding.y});
+  if (outdated) {
+    const std::string text =
+        ended ? fmt::format("Settings changed; figures and curves are of the last run, {}.", entry_->name())
+              : fmt::format("Settings changed; {} goes on with its own.", entry_->name());
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().warn);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    items::record("Changed", text);
+  }
   for (std::size_t i = 0; i < kCells; ++i) {
     if (i % columns != 0) ImGui::SameLine(style.WindowPadding.x + places[i % columns]);
     figure_cell(cells[i].first, cells[i].second);
   }
   progress_bar("Progress", std::min(1.0, static_cast<double>(state.proposals) / budget),
-               any ? fmt::format("{} of {} proposals", short_number(static_cast<double>(state.proposals)),
+               any ? fmt::format("{} of {} proposals",
+                                 short_number(std::min(static_cast<double>(state.proposals), budget)),
                                  short_number(budget))
                    : "");
   end_panel();

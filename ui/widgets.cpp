@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/declared.h"
 #include "ui/flow.h"
 #include "ui/parameters.h"
 
@@ -43,6 +44,62 @@ void wrapped(std::string_view text, ImU32 colour) {
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+}
+
+/// The number that was typed last, where it was not taken as it is: its widget, and what is said below that.
+struct NotTaken {
+  ImGuiID widget = 0;
+  std::string why;
+} not_taken;
+
+void take_number() {
+  if (not_taken.widget == ImGui::GetID("##value")) not_taken = {};
+}
+
+void refuse_number(std::string why) { not_taken = {ImGui::GetID("##value"), std::move(why)}; }
+
+/// Takes a number that was typed, or the nearest in its range.
+template <class T>
+void judge_number(T& value, T low, T high) {
+  const T typed = value;
+  value = typed >= low && typed <= high ? typed : typed > high ? high : low;  // NaN: the lowest
+  if (typed == value) return take_number();
+  refuse_number(fmt::format("{} is out of range (allowed: {}..{}); it is {} now.", typed, low, high, value));
+}
+
+/// As end_row(); what was not taken is told once the user is done typing.
+void end_number_row(std::string_view hint) {
+  if (not_taken.widget == ImGui::GetID("##value") && !ImGui::IsItemActive()) {
+    const std::string why = not_taken.why;
+    end_row(hint);
+    complaint("Not taken", why);
+  } else {
+    end_row(hint);
+  }
+}
+
+std::string printf_text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+template <class T>
+bool number_field(const char* label, T& value, std::string text, T low, T high, std::string_view hint) {
+  begin_row(label);
+  // While it is held ImGui keeps the text, so a number that is half typed may be anything.
+  if (ImGui::InputText("##value", &text)) {
+    if (T number{}; read_number(text, number)) {
+      value = number;
+      judge_number(value, low, high);
+    } else {
+      refuse_number(fmt::format("\"{}\" is no number; it is {} still.", text, value));
+    }
+  }
+  items::record(label, text);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  end_number_row(hint);
+  return done;
 }
 
 bool recorded_button(const char* label, bool enabled, std::string_view hint) {
@@ -140,48 +197,45 @@ bool combo(const char* label, std::span<const std::string> words, int& index, st
 
 bool slider(const char* label, int& value, int low, int high, std::string_view hint) {
   begin_row(label);
-  const bool changed = ImGui::SliderInt("##value", &value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
+  const bool changed = ImGui::SliderInt("##value", &value, low, high, "%d");
+  if (changed) judge_number(value, low, high);
   items::record(label, fmt::format("{}", value));
-  end_row(hint);
+  end_number_row(hint);
   return changed;
 }
 
 bool slider(const char* label, double& value, double low, double high, const char* format, bool logarithmic,
             std::string_view hint) {
   begin_row(label);
-  const auto flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const auto flags = logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
   const bool changed =
       ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format, flags);
-  if (!std::isfinite(value)) value = low;
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  items::record(label, text);
-  end_row(hint);
+  if (changed) judge_number(value, low, high);
+  items::record(label, printf_text(format, value));
+  end_number_row(hint);
   return changed;
+}
+
+bool slider(const char* label, int& value, const Option& option) {
+  return slider(label, value, static_cast<int>(option.least), static_cast<int>(option.most), hint_of(option));
+}
+
+bool slider(const char* label, double& value, const Option& option, const char* format) {
+  return slider(label, value, option.least_real, option.most_real, format, false, hint_of(option));
+}
+
+bool field(const char* label, std::int64_t& value, const Option& option) {
+  return field(label, value, option.least, option.most, hint_of(option));
 }
 
 bool field(const char* label, std::int64_t& value, std::int64_t low, std::int64_t high,
            std::string_view hint) {
-  begin_row(label);
-  ImGui::InputScalar("##value", ImGuiDataType_S64, &value);
-  items::record(label, fmt::format("{}", value));
-  const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  if (!ImGui::IsItemActive()) value = std::clamp(value, low, high);
-  end_row(hint);
-  return done;
+  return number_field(label, value, fmt::format("{}", value), low, high, hint);
 }
 
 bool field(const char* label, double& value, double low, double high, const char* format,
            std::string_view hint) {
-  begin_row(label);
-  ImGui::InputDouble("##value", &value, 0, 0, format);
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  items::record(label, text);
-  const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  if (!ImGui::IsItemActive()) value = std::isfinite(value) ? std::clamp(value, low, high) : low;
-  end_row(hint);
-  return done;
+  return number_field(label, value, printf_text(format, value), low, high, hint);
 }
 
 bool field(const char* label, std::string& value, std::string_view hint) {
@@ -202,13 +256,17 @@ bool field(const char* label, std::optional<T>& value, std::string_view otherwis
     T number{};
     if (text.empty()) {
       value.reset();
+      take_number();
     } else if (read_number(text, number)) {
       value = number;
+      take_number();
+    } else {
+      refuse_number(fmt::format("\"{}\" is no number of this kind; it is not taken.", text));
     }
   }
   items::record(label, value ? fmt::format("{}", *value) : std::string(otherwise));
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  end_row(hint);
+  end_number_row(hint);
   return done;
 }
 template bool field(const char*, std::optional<int>&, std::string_view, std::string_view);

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "bn/options.h"
 #include "ui/items.h"
 #include "ui/theme.h"
 
@@ -32,12 +33,17 @@ bool choice(const char* label, std::span<const char* const> words, int& index, s
 /// One of many, in a list that opens; the entries are recorded while it is open.
 bool combo(const char* label, std::span<const std::string> words, int& index, std::string_view hint = {});
 
-// Sliders: ctrl+click (or double click) types a value; typed values are clamped too. True while the value
-// changes.
+// Sliders: ctrl+click (or double click) types a value. True while the value changes. A number that is typed
+// into a slider or a field and is beyond the range becomes the nearest that is allowed, and a message below
+// the widget ("Not taken") says so until the next number is typed.
 bool slider(const char* label, int& value, int low, int high, std::string_view hint = {});
 bool slider(const char* label, double& value, double low, double high, const char* format = "%.3g",
             bool logarithmic = false, std::string_view hint = {});
+/// Range and hint are those of the option.
+bool slider(const char* label, int& value, const Option& option);
+bool slider(const char* label, double& value, const Option& option, const char* format);
 // Fields: true when the user is done with a new value.
+bool field(const char* label, std::int64_t& value, const Option& option);
 bool field(const char* label, std::int64_t& value, std::int64_t low, std::int64_t high,
            std::string_view hint = {});
 bool field(const char* label, double& value, double low, double high, const char* format = "%.6g",

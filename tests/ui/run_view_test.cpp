@@ -176,6 +176,60 @@ wait-for "Factor a" = 0.999999
                              "--session s.json"));
 }
 
+TEST(RunView, RangesAreTheLibrarysAndNoNumberIsReplacedInSilence) {
+  const Workplace here;
+  expect_success(here.script(R"s(wait 2
+set Sigma 9.5                 # the library allows 16
+wait-for Sigma = "9.50 px"
+expect "Not taken" gone
+set Sigma 99
+wait-for Sigma = "16.00 px"
+expect "Not taken" contains "99 is out of range (allowed: 0.3..16)"
+set Sigma 1.9
+wait-for "Not taken" gone
+set "Mask seed" -5
+wait-for "Not taken" contains "-5 is out of range (allowed: 0..9223372036854775807); it is 0 now"
+set "Mask seed" 1e3
+wait-for "Mask seed" = 1000
+expect "Not taken" gone
+set "Mask seed" x
+wait-for "Not taken" contains "no number"
+expect "Mask seed" = 1000
+set Radius 40
+wait-for Radius = 32
+expect "Not taken" contains "allowed: 1..32"
+set Width 99999
+wait-for Width = 16384
+expect "Not taken" contains "1..16384"
+)s"));
+}
+
+TEST(RunView, SaysWhenItsFiguresAreOfOtherSettings) {
+  const Workplace here;
+  expect_success(here.script(R"s(wait 2
+set Proposals 1e6
+click Start
+wait-for State = finished
+expect Changed gone
+expect Progress = "1e6 of 1e6 proposals"   # though its last sweep goes beyond
+set "Mask seed" 2
+wait-for State = changed
+expect Changed contains "of the last run, #1 exponential"
+key ctrl+z
+wait-for State = finished
+expect Changed gone
+set Threads 2                              # changes no byte
+wait 5
+expect Changed gone
+set Proposals 1e12
+click Start
+wait-for State = running
+set Radius 5
+wait-for Changed contains "#2 exponential goes on with its own"
+expect State = running
+)s"));
+}
+
 TEST(RunView, APlanMayBeLookedAtFromAnyDistance) {
   const Workplace here;
   // Zoomed in far, its dashed line is longer than floats of pixels can count.
