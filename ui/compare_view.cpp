@@ -50,11 +50,6 @@ Picture split(const Picture& a, const Picture& b, double share) {
 
 }  // namespace
 
-ImU32 CompareView::Kept::colour() const {
-  const auto& series = palette().series;
-  return series[static_cast<std::size_t>(entry->number - 1) % std::size(series)];
-}
-
 void CompareView::parameters(Parameters& p) {
   p("compare.what", what_, 0, 2);
   p("compare.mode", mode_, 0, 2);
@@ -72,7 +67,14 @@ bool CompareView::busy() const {
 void CompareView::add(std::shared_ptr<RunEntry> entry) {
   (find(a_.number) == nullptr ? a_ : b_) = {
       .number = entry->number, .placement = {}, .what = -1, .picture = {}};
-  kept_.push_back({std::move(entry)});
+  const auto is_taken = [&](int repeat) {
+    return std::any_of(kept_.begin(), kept_.end(), [&](const Kept& k) {
+      return k.repeat == repeat && k.entry->settings.schedule == entry->settings.schedule;
+    });
+  };
+  int repeat = 0;
+  while (is_taken(repeat)) ++repeat;
+  kept_.push_back({.entry = std::move(entry), .repeat = repeat});
   if (kept_.size() <= kMostKept) return;
   const auto oldest =
       std::find_if(kept_.begin(), kept_.end(), [](const Kept& k) { return k.entry->run->has_ended(); });
@@ -268,6 +270,11 @@ void CompareView::draw_pictures(ImVec2 size) {
   set_label_width(0);
   static constexpr const char* kWhat[] = {"permuted", "difference", "offsets"};
   choice("##what", kWhat, what_);
+  const RunEntry* first = find(a_.number);
+  if (what_ == 2 && first != nullptr) {
+    ImGui::SameLine();
+    legend_.draw(ImGui::GetFrameHeight(), longest_move(first->run->setup().problem.retarget));
+  }
   static constexpr const char* kModes[] = {"A | B", "Flip", "Split"};
   flow(choice_width("", kModes), em(1.0f));
   if (choice("##mode", kModes, mode_,

@@ -15,18 +15,7 @@ namespace {
 
 ImU32 faded(ImU32 colour, unsigned alpha) { return (colour & ~IM_COL32_A_MASK) | alpha << IM_COL32_A_SHIFT; }
 
-/// The colour scale of heat maps: one hue, more of it for more.
-ImU32 heat_colour(double share) {
-  static constexpr double kLight[3][3] = {{222, 235, 247}, {107, 174, 214}, {8, 48, 107}};
-  static constexpr double kDark[3][3] = {{24, 44, 66}, {52, 120, 178}, {205, 232, 255}};
-  const auto& stops = is_dark() ? kDark : kLight;
-  const double at = std::clamp(share, 0.0, 1.0) * 2.0;
-  const int i = at < 1.0 ? 0 : 1;
-  const auto part = [&](int c) {
-    return static_cast<unsigned>(stops[i][c] + (stops[i + 1][c] - stops[i][c]) * (at - i) + 0.5);
-  };
-  return IM_COL32(part(0), part(1), part(2), 255);
-}
+ImU32 heat_colour(double share) { return screen_colour(scale_colour(share)); }
 
 /// A plot while it is drawn: where everything is.
 struct Canvas {
@@ -73,13 +62,26 @@ void draw_axes(const Canvas& c, const Figure& figure, const std::vector<Tick>& y
   }
 }
 
+/// Slanting lines, that go on from cell to cell: no value, which no colour of the scale says.
+void hatch(const Canvas& c, ImVec2 low, ImVec2 high) {
+  const float step = em(0.5f);
+  c.list.PushClipRect(low, high, true);
+  for (float at = std::floor((low.x + low.y) / step) * step; at < high.x + high.y; at += step)
+    c.list.AddLine({at - high.y, high.y}, {at - low.y, low.y}, faded(palette().dim_text, 90));
+  c.list.PopClipRect();
+}
+
 void draw_heat(const Canvas& c, const HeatMap& heat) {
   const Scale colour(heat.logarithmic, heat.colours);
   const double width = (heat.x.high - heat.x.low) / std::max(1, heat.columns);
   for (int row = 0; row < static_cast<int>(heat.rows.size()); ++row) {
     for (int column = 0; column < heat.columns; ++column) {
       const double value = heat.values[static_cast<std::size_t>(row * heat.columns + column)];
-      if (std::isnan(value)) continue;
+      if (std::isnan(value)) {
+        hatch(c, {c.place_x(heat.x.low + column * width), c.place_y(row + 0.5)},
+              {c.place_x(heat.x.low + (column + 1) * width), c.place_y(row - 0.5)});
+        continue;
+      }
       const double share = heat.logarithmic && value <= 0.0 ? 0.0 : colour.share(value);
       c.list.AddRectFilled({c.place_x(heat.x.low + column * width), c.place_y(row + 0.5)},
                            {c.place_x(heat.x.low + (column + 1) * width), c.place_y(row - 0.5)},
@@ -100,7 +102,8 @@ void draw_colour_bar(const Canvas& c, const HeatMap& heat, float left) {
   for (const double share : {0.0, 0.5, 1.0}) {
     const float at = c.max.y - height * static_cast<float>(share);
     const float y = std::clamp(at - 0.5f * text, c.min.y - 0.2f * text, c.max.y - 0.9f * text);
-    c.list.AddText({left + em(0.8f), y}, palette().dim_text, short_number(colour.value(share), 2).c_str());
+    c.list.AddText({left + em(0.8f), y}, palette().dim_text,
+                   ((share == 0.0 ? "≤ " : "") + short_number(colour.value(share), 2)).c_str());
   }
 }
 
@@ -341,7 +344,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   float label_width = em(3);  // enough for most, so that plots below each other are aligned
   for (const Tick& t : y_ticks) label_width = std::max(label_width, ImGui::CalcTextSize(t.text.c_str()).x);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float bar = figure.heat ? em(4.2f) : em(0.6f);
+  const float bar = figure.heat ? em(5.2f) : em(0.6f);
   const Canvas canvas{list,
                       {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
                       {corner.x + area.x - bar, corner.y + area.y - text - em(0.4f)},

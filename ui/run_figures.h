@@ -38,6 +38,8 @@ Figure energy_figure(std::span<const DrawnRun> runs, Over over = Over::proposals
 Figure temperature_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
 /// Of all proposals; of a run alone, also of the worsening ones.
 Figure acceptance_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
+inline constexpr const char* kSurfaceTitle =
+    "Accepted share of worsening swaps, by the rise of energy (hatched: too few tried)";
 /// Accepted share of worsening swaps over the run and their size.
 Figure surface_figure(const RunEntry& entry);
 

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "bn/palette.h"
 #include "ui/flow.h"
 #include "ui/parameters.h"
 #include "ui/theme.h"
@@ -73,24 +74,23 @@ Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>&
   return picture;
 }
 
+double longest_move(const RetargetOptions& options) {
+  return options.radius * (options.reach == Reach::euclidean ? 1.0 : std::numbers::sqrt2);
+}
+
 Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options) {
   Picture picture;
   picture.size = move.size();
   picture.channels = 2;
   const Offset m = options.motion;
-  const float reach = static_cast<float>(options.radius) *
-                      (options.reach == Reach::euclidean ? 1.0f : std::numbers::sqrt2_v<float>);
+  const double reach = longest_move(options);
   for (const Offset r : move) {
-    const float x = static_cast<float>(r.x - m.x), y = static_cast<float>(r.y - m.y);
-    const float hue = std::atan2(-y, x) / (2.0f * std::numbers::pi_v<float>);
-    float red = 0, green = 0, blue = 0;
-    ImGui::ColorConvertHSVtoRGB(hue < 0 ? hue + 1.0f : hue, std::min(1.0f, std::hypot(x, y) / reach * 1.2f),
-                                1.0f, red, green, blue);
-    picture.colours.push_back(ImGui::ColorConvertFloat4ToU32({red, green, blue, 1.0f}));
+    picture.colours.push_back(screen_colour(move_colour({r.x - m.x, r.y - m.y}, reach)));
     picture.values.push_back(static_cast<float>(r.x));
     picture.values.push_back(static_cast<float>(r.y));
   }
-  picture.overlay = [move, m, reach](ImDrawList& list, int x, int y, ImVec2 corner, float size) {
+  picture.overlay = [move, m, reach = static_cast<float>(reach)](ImDrawList& list, int x, int y,
+                                                                 ImVec2 corner, float size) {
     const Offset r = move(x, y);
     const float dx = static_cast<float>(r.x - m.x), dy = static_cast<float>(r.y - m.y),
                 length = std::hypot(dx, dy);
@@ -237,7 +237,7 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
       {"Permuted", &permuted_, &link_, "The mask after the seeds have moved: at u + R(u) the level of u"},
       {"Target", &target_, &link_, "The next frame's mask: the same one, moved by the step"},
       {"Difference", &difference_, &link_, "Its sum is the energy (L1)"},
-      {"Offsets", &offsets_, &link_, "Where each seed goes: the hue is the direction, pale is near"},
+      {"Offsets", &offsets_, &link_, "Where each seed goes: the hue is the direction, grey is near"},
       {"Spectrum", &spectrum_, &spectrum_link_, "Power in decibels, frequency 0 in the middle"}};
   int i = 0;
   for (const auto& [name, view, link, hint] : all) {
@@ -245,6 +245,10 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
     ImGui::BeginGroup();
     ImGui::TextUnformatted(name);
     tooltip(hint);
+    if (view == &offsets_ && !view->empty()) {
+      ImGui::SameLine();
+      legend_.draw(ImGui::GetTextLineHeight(), longest_move(shown_.options));
+    }
     view->draw(name, *link, {width, height});
     if (ranges) {
       ImGui::BeginChild(name, {width, em(2.5f)}, false,
@@ -267,7 +271,7 @@ Figure RunPictures::spectrum_figure() const {
   if (!curve_) return figure;
   Curve curve;
   curve.name = kOf[spectrum_of_];
-  curve.colour = palette().series[0];
+  curve.colour = curve_colour(0);
   curve.x = curve_->frequency;
   curve.y = curve_->power;
   figure.curves.push_back(std::move(curve));

@@ -8,6 +8,7 @@
 #include "bn/retarget_anneal.h"
 #include "bn/spectrum.h"
 #include "ui/image_view.h"
+#include "ui/move_legend.h"
 #include "ui/plot.h"
 #include "ui/run.h"
 #include "ui/source.h"
@@ -21,8 +22,10 @@ Picture permuted_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& m
 Picture target_picture(const Grid<std::int32_t>& levels, Offset step);
 /// The size of their difference.
 Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step);
-/// R(u) - m as hue (where to) and saturation (how far, of `radius`); with arrows where there is room for
-/// them.
+/// The length that has the full colour in offset_picture().
+double longest_move(const RetargetOptions& options);
+/// R(u) - m in the colours of bn/palette.h: the hue says where to, its strength how far; with arrows where
+/// there is room for them.
 Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options);
 
 class RunPictures {
@@ -71,6 +74,7 @@ class RunPictures {
   bool too_large_ = false;
   Task<Made> make_;
   ImageView permuted_, target_, difference_, offsets_, spectrum_;
+  MoveLegend legend_;
   ViewLink link_, spectrum_link_;
   int spectrum_of_ = 0;  ///< 0 permuted, 1 target, 2 difference
   bool spectrum_stale_ = false;

@@ -289,14 +289,14 @@ void RunView::draw_plots(ImVec2 size) {
       std::max(em(9), (size.y - row_gap * static_cast<float>(rows - 1)) / static_cast<float>(rows));
   Figure energy, temperature, acceptance, surface;
   if (entry_) {
-    const DrawnRun drawn[] = {{entry_.get(), palette().series[0]}};
+    const DrawnRun drawn[] = {{entry_.get(), schedule_colour(entry_->settings.schedule_name())}};
     energy = energy_figure(drawn);
     temperature = temperature_figure(drawn);
     acceptance = acceptance_figure(drawn);
     surface = surface_figure(*entry_);
   } else {
     energy.title = "Energy", temperature.title = "Temperature", acceptance.title = "Accepted";
-    surface.title = "Accepted share of worsening swaps, by the rise of energy";
+    surface.title = kSurfaceTitle;
     for (Figure* figure : {&energy, &temperature, &acceptance, &surface})
       figure->empty = "starts with the run";
   }

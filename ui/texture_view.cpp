@@ -251,12 +251,12 @@ void TextureView::draw_spectrum(ImVec2 size) {
                   .x = {.name = "cycles/pixel", .low = 0.0, .high = 0.71},
                   .y = {.name = "power", .logarithmic = true}};
     figure.curves.push_back({.name = "in space",
-                             .colour = palette().series[0],
+                             .colour = curve_colour(0),
                              .x = analysis_->radial.frequency,
                              .y = analysis_->radial.power});
     if (!analysis_->time.power.empty()) {
       figure.curves.push_back({.name = "in time",
-                               .colour = palette().series[1],
+                               .colour = curve_colour(1),
                                .x = analysis_->time.frequency,
                                .y = analysis_->time.power});
     }
