@@ -82,10 +82,11 @@ ImageView::Prepared ImageView::prepare(const Picture& picture, float low, float 
         continue;
       }
       const float* v = &picture.values[from * static_cast<std::size_t>(channels)];
-      const std::uint32_t r = level(v[0]);
-      texels[to] = channels == 1   ? IM_COL32(r, r, r, 255)
-                   : channels == 2 ? IM_COL32(r, level(v[1]), 0, 255)
-                                   : IM_COL32(r, level(v[1]), level(v[2]), 255);
+      const auto part = [&](int c) {
+        return c < channels && (picture.visible >> c & 1) != 0 ? level(v[c]) : 0u;
+      };
+      const std::uint32_t grey = level(v[0]);
+      texels[to] = channels == 1 ? IM_COL32(grey, grey, grey, 255) : IM_COL32(part(0), part(1), part(2), 255);
     }
   }
   Prepared prepared{.levels = with_halvings(shown, std::move(texels)), .histogram = {}};

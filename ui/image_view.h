@@ -25,6 +25,8 @@ struct Picture {
   Extent size;
   int channels = 1;           ///< 1..4: grey, red and green, RGB, RGBA (alpha is shown by the values only)
   std::vector<float> values;  ///< interleaved, index (y * width + x) * channels + c
+  unsigned visible = 15;      ///< of several channels those that are drawn: bit c
+  int hex_digits = 0;         ///< of a value; 0: values are no whole numbers
   float low = 0.0f;           ///< the value that is black when the range is reset ...
   float high = 255.0f;        ///< ... and the white one
   /// Not empty: shown as it is (IM_COL32 a pixel) in place of the values, without range control.

@@ -34,23 +34,20 @@ void draw_axes(const Canvas& c, const Figure& figure, const std::vector<Tick>& y
   const float gap = em(0.3f), height = ImGui::GetTextLineHeight();
   c.list.AddRectFilled(c.min, c.max, p.background);
   const auto grid = [&](const Tick& t) { return faded(p.line, t.text.empty() ? 90 : 200); };
-  // The name of x stands among its numbers, where the widest gap is.
-  float free_from = -FLT_MAX, widest = 0.0f, name_at = 0.0f;
-  const float name_width = ImGui::CalcTextSize(figure.x.name.c_str()).x;
-  for (const Tick& t : ticks_of(figure.x, x, (c.max.x - c.min.x) / em(5))) {
+  float free_from = -FLT_MAX;
+  for (const Tick& t : ticks_of(figure.x, x, (c.max.x - c.min.x) / em(figure.heat ? 2.5f : 5.0f))) {
     const float at = std::round(c.place_x(t.value));
-    c.list.AddLine({at, c.min.y}, {at, c.max.y}, grid(t));
+    if (!figure.heat) c.list.AddLine({at, c.min.y}, {at, c.max.y}, grid(t));
     const float wide = ImGui::CalcTextSize(t.text.c_str()).x;
     const float left = std::min(at - 0.5f * wide, c.max.x - wide + em(0.5f));
     if (t.text.empty() || left < free_from) continue;
     c.list.AddText({left, c.max.y + gap}, p.dim_text, t.text.c_str());
-    if (free_from > 0.0f && left - free_from >= widest) {
-      widest = left - free_from;
-      name_at = 0.5f * (left + free_from - em(0.8f) - name_width);
-    }
     free_from = left + wide + em(0.8f);
   }
-  if (name_width + em(0.8f) < widest) c.list.AddText({name_at, c.max.y + gap}, p.text, figure.x.name.c_str());
+  // The name of x has a line of its own, so that no number takes its place.
+  const float name = ImGui::CalcTextSize(figure.x.name.c_str()).x;
+  c.list.AddText({std::max(c.min.x, 0.5f * (c.min.x + c.max.x - name)), c.max.y + gap + 0.9f * height},
+                 p.text, figure.x.name.c_str());
   float free_to = FLT_MAX;
   for (const Tick& t : y_ticks) {
     const float at = std::round(c.place_y(t.value));
@@ -88,6 +85,11 @@ void draw_heat(const Canvas& c, const HeatMap& heat) {
                            heat_colour(share));
     }
   }
+  if (!heat.marked) return;
+  const auto [column, row] = *heat.marked;
+  c.list.AddRect({c.place_x(heat.x.low + column * width), c.place_y(row + 0.5)},
+                 {c.place_x(heat.x.low + (column + 1) * width), c.place_y(row - 0.5)}, IM_COL32_WHITE, 0, 0,
+                 2.0f);
 }
 
 void draw_colour_bar(const Canvas& c, const HeatMap& heat, float left) {
@@ -103,7 +105,9 @@ void draw_colour_bar(const Canvas& c, const HeatMap& heat, float left) {
     const float at = c.max.y - height * static_cast<float>(share);
     const float y = std::clamp(at - 0.5f * text, c.min.y - 0.2f * text, c.max.y - 0.9f * text);
     c.list.AddText({left + em(0.8f), y}, palette().dim_text,
-                   ((share == 0.0 ? "≤ " : "") + short_number(colour.value(share), 2)).c_str());
+                   ((share == 0.0 && heat.logarithmic ? "≤ " : "") +
+                    short_number(colour.value(share), heat.logarithmic ? 2 : 5))
+                       .c_str());
   }
 }
 
@@ -347,7 +351,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   const float bar = figure.heat ? em(5.2f) : em(0.6f);
   const Canvas canvas{list,
                       {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
-                      {corner.x + area.x - bar, corner.y + area.y - text - em(0.4f)},
+                      {corner.x + area.x - bar, corner.y + area.y - 1.9f * text - em(0.4f)},
                       Scale(figure.x.logarithmic, x),
                       Scale(figure.y.logarithmic, y)};
   if (fitting.points > 0) {
@@ -393,8 +397,10 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
     const int column =
         static_cast<int>((link.cursor - heat.x.low) / (heat.x.high - heat.x.low) * heat.columns);
     const int row = static_cast<int>(std::lround(canvas.y.value(canvas.share_y(mouse.y))));
-    if (column >= 0 && column < heat.columns && row >= 0 && row < static_cast<int>(heat.rows.size()))
+    if (column >= 0 && column < heat.columns && row >= 0 && row < static_cast<int>(heat.rows.size())) {
       tooltip(heat.describe(column, row));
+      if (heat.click && ImGui::IsMouseClicked(0)) heat.click(column, row);
+    }
   }
   steer(canvas, figure, inside, held, link.x, y_, box_from_);
   ImGui::EndGroup();

@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bn::ui {
@@ -57,8 +58,10 @@ struct HeatMap {
   std::vector<double> values;     ///< row * columns + column; NaN: an empty cell
   Interval colours;               ///< values of the ends of the colour scale
   bool logarithmic = false;       ///< likewise
-  /// What to say of a cell under the cursor.
+  /// What to say of a cell under the cursor, and what a click on it does.
   std::function<std::string(int column, int row)> describe = {};
+  std::function<void(int column, int row)> click = {};
+  std::optional<std::pair<int, int>> marked = {};  ///< column and row of a cell with a frame
 };
 
 struct Figure {

@@ -150,6 +150,15 @@ bool checkbox(const char* label, bool& value, std::string_view hint) {
   return changed;
 }
 
+bool toggle(const char* word, bool on, std::string_view hint) {
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+  if (!on) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+  const bool clicked = ImGui::Button(word);
+  ImGui::PopStyleColor();
+  tooltip(hint);
+  return clicked;
+}
+
 bool choice(const char* label, std::span<const char* const> words, int& index, std::string_view hint) {
   begin_row(label);
   bool changed = false;
@@ -161,13 +170,10 @@ bool choice(const char* label, std::span<const char* const> words, int& index, s
       ImGui::SetCursorPosX(std::max(left, ImGui::GetCursorPosX()));  // of a new line: below the first word
     }
     const bool chosen = i == index;
-    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
-    if (!chosen) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
-    if (ImGui::Button(words[i]) && !chosen) {
+    if (toggle(words[i], chosen) && !chosen) {
       index = i;
       changed = true;
     }
-    ImGui::PopStyleColor();
     items::record(name.empty() ? std::string(words[i]) : fmt::format("{}: {}", name, words[i]),
                   chosen ? "on" : "off");
   }

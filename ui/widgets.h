@@ -28,6 +28,8 @@ bool button(const char* label, bool enabled = true, std::string_view hint = {});
 /// The one that the view is about: in the accent colour.
 bool main_button(const char* label, bool enabled = true, std::string_view hint = {});
 bool checkbox(const char* label, bool& value, std::string_view hint = {});
+/// A button that is on or off, as the words of choice() look. True when clicked. Not recorded.
+bool toggle(const char* word, bool on, std::string_view hint = {});
 /// Two to five words of which one holds, side by side. Recorded as "label: word" each.
 bool choice(const char* label, std::span<const char* const> words, int& index, std::string_view hint = {});
 /// One of many, in a list that opens; the entries are recorded while it is open.
