@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
+#include <utility>
 
 #include "ui/app.h"
 #include "ui/compare_export.h"
@@ -16,6 +19,15 @@ namespace {
 
 constexpr std::size_t kMostKept = 16;
 
+struct Column {
+  const char* name;
+  bool sorts;
+};
+constexpr Column kColumns[] = {{"Run", true},     {"A", false},      {"B", false},        {"Image", true},
+                               {"Problem", true}, {"Start T", true}, {"Proposals", true}, {"Seed", true},
+                               {"Energy", true},  {"Optimum", true}, {"Gap", true},       {"Time", true},
+                               {"", false}};
+
 /// The figures of a run as a table has them: the best once it has ended, else where it stands.
 struct Figures {
   std::int64_t energy = 0;
@@ -27,6 +39,39 @@ Figures figures_of(const RunEntry& entry) {
   const auto result = entry.run->has_ended() ? entry.run->result() : nullptr;
   return {result ? result->tile.energy : standing.state.energy, standing.state.seconds,
           standing.state.proposals};
+}
+
+std::string problem_text(const RunEntry& entry) {
+  const RunSettings& s = entry.settings;
+  static constexpr const char* kMetrics[] = {"L1", "L2", "blurred"};
+  std::string text = fmt::format("radius {}, {}", s.radius, kMetrics[s.metric]);
+  if (s.motion_x != 0 || s.motion_y != 0) text += fmt::format(", motion ({}, {})", s.motion_x, s.motion_y);
+  return text;
+}
+
+/// Whether their energies can be held against each other.
+bool same_problem(const RunEntry& a, const RunEntry& b) {
+  const AnnealProblem &p = a.run->setup().problem, &q = b.run->setup().problem;
+  return a.source->choice == b.source->choice && same(p.retarget, q.retarget) &&
+         p.residual_sigma_px == q.residual_sigma_px;
+}
+
+/// What a column is sorted by: text, then number.
+std::pair<std::string, double> sort_key(const RunEntry& entry, int column) {
+  const Figures figures = figures_of(entry);
+  const RetargetTile* optimum = entry.optimum ? entry.optimum->tile() : nullptr;
+  const std::string name = kColumns[column].name;
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  if (name == "Image") return {entry.source->name, 0.0};
+  if (name == "Problem") return {problem_text(entry), 0.0};
+  if (name == "Start T") return {"", entry.run->standing().temperatures.start};
+  if (name == "Proposals") return {"", static_cast<double>(figures.proposals)};
+  if (name == "Seed") return {"", static_cast<double>(entry.settings.seed)};
+  if (name == "Energy") return {"", static_cast<double>(figures.energy)};
+  if (name == "Optimum") return {"", optimum != nullptr ? static_cast<double>(optimum->energy) : kUnknown};
+  if (name == "Gap") return {"", gap_percent(entry, figures.energy).value_or(kUnknown)};
+  if (name == "Time") return {"", figures.seconds};
+  return {"", static_cast<double>(entry.number)};
 }
 
 /// Columns left of `share` from a, the others from b.
@@ -136,17 +181,20 @@ void CompareView::draw(App& app) {
   update(app);
   if (kept_.empty()) {
     begin_panel("none");
-    ImGui::SetCursorPosY(ImGui::GetContentRegionAvail().y * 0.4f);
-    note("Every run that you start is kept here, to be held against the others.");
-    if (button("Go to Run")) app.show(Tab::run);
+    begin_centred("what to do", "Nothing to compare yet");
+    note(
+        "Every run that you start is kept here. Start one in the Run view, change its schedule, its budget "
+        "or "
+        "its seed, and start again: their curves share a plot, their pictures stand side by side.");
+    if (main_button("Go to Run")) app.show(Tab::run);
+    end_centred();
     end_panel();
     return;
   }
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float rows = static_cast<float>(std::min<std::size_t>(kept_.size(), 6)) + 1.0f;
   const float table = rows * (ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
-                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y +
-                      ImGui::GetStyle().ScrollbarSize;
+                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
   begin_panel("runs", {0, std::min(table, room.y * 0.45f)});
   draw_table();
   const bool any = std::any_of(kept_.begin(), kept_.end(), [](const Kept& k) { return k.shown; });
@@ -158,7 +206,7 @@ void CompareView::draw(App& app) {
   end_panel();
   const ImVec2 rest = ImGui::GetContentRegionAvail();
   const bool wide = rest.x > em(48);
-  const float high = wide ? std::max(em(24), rest.y) : em(32);
+  const float high = wide ? std::max(em(34), rest.y) : em(36);
   begin_panel("curves", {wide ? rest.x * 0.5f : 0.0f, high});
   draw_plots(ImGui::GetContentRegionAvail());
   end_panel();
@@ -171,21 +219,50 @@ void CompareView::draw(App& app) {
 
 void CompareView::draw_table() {
   constexpr auto kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX |
-                          ImGuiTableFlags_ScrollY;
+                          ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable;
   // ImGui's scrolling tables trip over a child window that is nowhere in sight.
   const ImVec2 room = ImGui::GetContentRegionAvail();
   if (!ImGui::IsRectVisible({room.x, room.y - ImGui::GetFrameHeightWithSpacing()})) return;
-  if (!ImGui::BeginTable("runs", 11, kFlags, {0, -ImGui::GetFrameHeightWithSpacing()})) return;
+  if (!ImGui::BeginTable("runs", static_cast<int>(std::size(kColumns)), kFlags,
+                         {0, -ImGui::GetFrameHeightWithSpacing()}))
+    return;
   ImGui::TableSetupScrollFreeze(1, 1);
-  for (const char* name :
-       {"Run", "A", "B", "Image", "Proposals", "Seed", "Energy", "Optimum", "Gap", "Time", ""}) {
-    ImGui::TableSetupColumn(name);
+  for (const Column& column : kColumns) {
+    ImGui::TableSetupColumn(column.name, column.sorts ? 0 : ImGuiTableColumnFlags_NoSort);
   }
-  ImGui::TableHeadersRow();
+  ImGui::TableNextRow(ImGuiTableRowFlags_Headers);
+  for (const Column& column : kColumns) {
+    ImGui::TableNextColumn();
+    ImGui::TableHeader(column.name);
+    if (column.sorts) items::record(fmt::format("Sort by {}", column.name));
+  }
+  std::vector<std::size_t> order(kept_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const ImGuiTableSortSpecs* specs = ImGui::TableGetSortSpecs();
+  if (specs != nullptr && specs->SpecsCount > 0) {
+    const auto key = [&](std::size_t i) { return sort_key(*kept_[i].entry, specs->Specs[0].ColumnIndex); };
+    const bool down = specs->Specs[0].SortDirection == ImGuiSortDirection_Descending;
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return down ? key(b) < key(a) : key(a) < key(b); });
+  }
   removed_ = 0;
-  for (Kept& kept : kept_) draw_row(kept);
+  int place = 0;
+  for (const std::size_t i : order) {
+    draw_row(kept_[i]);
+    items::record(fmt::format("Row {}", ++place), fmt::format("{}", kept_[i].entry->number));
+  }
   ImGui::EndTable();
   if (removed_ != 0) remove(removed_);
+}
+
+bool CompareView::is_best(const RunEntry& entry) const {
+  bool others = false;
+  for (const Kept& kept : kept_) {
+    if (kept.entry.get() == &entry || !same_problem(*kept.entry, entry)) continue;
+    others = true;
+    if (figures_of(*kept.entry).energy < figures_of(entry).energy) return false;
+  }
+  return others;
 }
 
 void CompareView::draw_row(Kept& kept) {
@@ -207,16 +284,21 @@ void CompareView::draw_row(Kept& kept) {
   };
   pick("##A", a_);
   pick("##B", b_);
-  const auto cell = [&](const char* name, const std::string& text) {
+  const auto cell = [&](const char* name, const std::string& text, bool good = false) {
     ImGui::TableNextColumn();
     ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, good ? palette().good : palette().text);
     ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
     items::record(fmt::format("{} {}", name, entry.number), text);
   };
   cell("Image", entry.source->name);
-  cell("Proposals", short_number(static_cast<double>(figures.proposals)));
+  cell("Problem", problem_text(entry));
+  cell("Start T", fmt::format("{:.4g}", entry.run->standing().temperatures.start));
+  cell("Proposals", short_number(std::min(static_cast<double>(figures.proposals), entry.settings.proposals)));
   cell("Seed", fmt::format("{}", entry.settings.seed));
-  cell("Energy", fmt::format("{}", figures.energy));
+  const bool best = is_best(entry);
+  cell("Energy", fmt::format("{}{}", figures.energy, best ? " best" : ""), best);
   cell("Optimum", optimum != nullptr ? fmt::format("{}", optimum->energy) : "–");
   cell("Gap", gap ? fmt::format("{:.2f} %", *gap) : "–");
   cell("Time", fmt::format("{:.2f} s", figures.seconds));
@@ -236,11 +318,15 @@ void CompareView::draw_plots(ImVec2 size) {
   static constexpr const char* kOver[] = {"proposals", "seconds"};
   if (choice("Over", kOver, over_, "What the curves are drawn over")) plot_link_ = {};
   const float gap = ImGui::GetStyle().ItemSpacing.y, height = size.y - (ImGui::GetCursorPosY() - before);
-  const float first = std::max(em(9), height * 0.46f),
-              second = std::max(em(7), (height - first) * 0.5f - gap);
+  const float first = std::max(em(10), height * 0.38f),
+              second = std::max(em(10), (height - first - 2 * gap) * 0.5f);
   const Over over = over_ == 0 ? Over::proposals : Over::seconds;
-  energy_plot_.draw("Energies", energy_figure(drawn, over), {size.x, first}, plot_link_);
-  temperature_plot_.draw("Temperatures", temperature_figure(drawn, over), {size.x, second}, plot_link_);
+  Figure energy = energy_figure(drawn, over), temperature = temperature_figure(drawn, over);
+  // The plots stand below each other on one axis, which the last one names.
+  energy.x.name.clear();
+  temperature.x.name.clear();
+  energy_plot_.draw("Energies", energy, {size.x, first}, plot_link_);
+  temperature_plot_.draw("Temperatures", temperature, {size.x, second}, plot_link_);
   acceptance_plot_.draw("Acceptances", acceptance_figure(drawn, over), {size.x, second}, plot_link_);
 }
 
@@ -260,7 +346,7 @@ bool CompareView::refresh(Side& side) {
   const RetargetOptions& options = entry->run->setup().problem.retarget;
   const Grid<Offset>& move = side.placement->move;
   side.picture = what_ == 0   ? permuted_picture(levels, move)
-                 : what_ == 1 ? difference_picture(levels, move, options.step)
+                 : what_ == 1 ? difference_picture(levels, move, options.step, 8)
                               : offset_picture(move, options);
   return true;
 }

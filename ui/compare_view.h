@@ -45,6 +45,8 @@ class CompareView {
   const RunEntry* find(int number) const;
   void remove(int number);
   void draw_table();
+  /// Of all runs of its problem, of which there are others, none has less energy.
+  bool is_best(const RunEntry& entry) const;
   void draw_row(Kept& kept);
   void draw_plots(ImVec2 size);
   void draw_pictures(ImVec2 size);

@@ -266,7 +266,7 @@ void draw_cursor(const Canvas& c, const Figure& figure, const std::set<std::stri
   const float at = c.place_x(x);
   if (at < c.min.x || at > c.max.x) return;
   c.list.AddLine({at, c.min.y}, {at, c.max.y}, faded(palette().text, 110));
-  std::string text = fmt::format("{}  {}", figure.x.name, short_number(x));
+  std::string text = fmt::format("{}{}{}", figure.x.name, figure.x.name.empty() ? "" : "  ", short_number(x));
   for (const Curve& curve : figure.curves) {
     const auto i = hidden.contains(curve.name) ? std::nullopt : nearest(curve, x);
     if (!i || std::isnan(clean(figure.y, curve.y[*i]))) continue;
@@ -322,8 +322,8 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   ImGui::BeginGroup();
   const Palette& p = palette();
   const ImVec2 top = ImGui::GetCursorScreenPos();
-  draw_legend(name, figure, size.x, hidden_);
-  const Fit fitting = fit(figure, hidden_, link.x);
+  draw_legend(name, figure, size.x, link.hidden);
+  const Fit fitting = fit(figure, link.hidden, link.x);
   Interval x = link.x.value_or(fitting.x), y = y_.value_or(fitting.y);
   if (!is_sound(figure.x, x)) x = fitting.x;
   if (!is_sound(figure.y, y)) y = fitting.y;
@@ -332,7 +332,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   const ImVec2 area{std::max(em(4), size.x), std::max(em(4), size.y - (corner.y - top.y))};
   ImGui::InvisibleButton("area", area, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const auto curves = std::count_if(figure.curves.begin(), figure.curves.end(),
-                                    [&](const Curve& curve) { return !hidden_.contains(curve.name); });
+                                    [&](const Curve& curve) { return !link.hidden.contains(curve.name); });
   items::record(name, fitting.points == 0 ? "empty"
                       : figure.heat       ? fmt::format("{} cells", fitting.points)
                                           : fmt::format("{} curves, {} points", curves, fitting.points));
@@ -349,11 +349,12 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   for (const Tick& t : y_ticks) label_width = std::max(label_width, ImGui::CalcTextSize(t.text.c_str()).x);
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float bar = figure.heat ? em(5.2f) : em(0.6f);
-  const Canvas canvas{list,
-                      {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
-                      {corner.x + area.x - bar, corner.y + area.y - 1.9f * text - em(0.4f)},
-                      Scale(figure.x.logarithmic, x),
-                      Scale(figure.y.logarithmic, y)};
+  const Canvas canvas{
+      list,
+      {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
+      {corner.x + area.x - bar, corner.y + area.y - (figure.x.name.empty() ? 1.0f : 1.9f) * text - em(0.4f)},
+      Scale(figure.x.logarithmic, x),
+      Scale(figure.y.logarithmic, y)};
   if (fitting.points > 0) {
     draw_axes(canvas, figure, y_ticks, x);
   } else {
@@ -369,7 +370,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   list.PushClipRect(canvas.min, canvas.max, true);
   if (figure.heat) draw_heat(canvas, *figure.heat);
   for (const Level& level : figure.levels) {
-    if (hidden_.contains(level.name)) continue;
+    if (link.hidden.contains(level.name)) continue;
     Curve line;
     line.colour = level.colour;
     line.x = {x.low, x.high};
@@ -378,10 +379,15 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
     draw_curve(canvas, figure, line);
   }
   for (const Curve& curve : figure.curves) {
-    if (!hidden_.contains(curve.name)) draw_curve(canvas, figure, curve);
+    if (!link.hidden.contains(curve.name)) draw_curve(canvas, figure, curve);
   }
-  if (fitting.points > 0 && link.cursor_frame >= frame - 1 && !figure.heat)
-    draw_cursor(canvas, figure, hidden_, link.cursor, inside && !held);
+  const bool linked = fitting.points > 0 && link.cursor_frame >= frame - 1;
+  if (linked) items::record(fmt::format("{} cursor", name), short_number(link.cursor));
+  if (linked && figure.heat) {
+    const float at = canvas.place_x(link.cursor);
+    list.AddLine({at, canvas.min.y}, {at, canvas.max.y}, faded(p.text, 110));
+  } else if (linked)
+    draw_cursor(canvas, figure, link.hidden, link.cursor, inside && !held);
   if (box_from_) list.AddRect(*box_from_, mouse, p.accent, 0, 0, 1.5f);
   list.PopClipRect();
   if (figure.heat) draw_colour_bar(canvas, *figure.heat, canvas.max.x + em(0.5f));

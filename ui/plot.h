@@ -73,9 +73,10 @@ struct Figure {
   std::string empty = "nothing yet";  ///< what to say where there is no data
 };
 
-/// What plots side by side share: the stretch of x that they show, and where the cursor is.
+/// What plots side by side share: the stretch of x that they show, what is hidden, and where the cursor is.
 struct PlotLink {
-  std::optional<Interval> x = {};  ///< none: all of it
+  std::optional<Interval> x = {};     ///< none: all of it
+  std::set<std::string> hidden = {};  ///< names of curves
   double cursor = 0.0;
   int cursor_frame = -1;  ///< of ImGui, in which the cursor was there
 };
@@ -87,7 +88,6 @@ class Plot {
 
  private:
   std::optional<Interval> y_;       ///< none: fits
-  std::set<std::string> hidden_;    ///< names of curves
   std::optional<ImVec2> box_from_;  ///< where the right button went down
 };
 

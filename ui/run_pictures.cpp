@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -15,6 +16,9 @@
 
 namespace bn::ui {
 namespace {
+
+/// Of the difference; 0: so that nearly all of it is seen.
+constexpr std::array<int, 4> kGains{0, 1, 8, 64};
 
 Picture picture_of(const Grid<std::int32_t>& levels) {
   Picture picture;
@@ -64,13 +68,22 @@ Picture target_picture(const Grid<std::int32_t>& levels, Offset step) {
   return picture;
 }
 
-Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step) {
+Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step,
+                           int gain) {
   Picture picture = permuted_picture(levels, move);
   const Picture target = target_picture(levels, step);
   for (std::size_t i = 0; i < picture.values.size(); ++i)
     picture.values[i] = std::abs(picture.values[i] - target.values[i]);
-  // White is an eighth of all levels: what annealing leaves is small, and must be seen.
-  picture.high = std::max(1.0f, std::round(picture.high / 8.0f));
+  const float all = picture.high;
+  if (gain > 0) {
+    picture.high = std::max(1.0f, std::round(all / static_cast<float>(gain)));
+    return picture;
+  }
+  // Nearly all differences are below white, which is a power of two, so that it seldom changes in a run.
+  std::vector<float> sorted = picture.values;
+  const auto place = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 199 / 200);
+  std::nth_element(sorted.begin(), place, sorted.end());
+  picture.high = std::min(all, std::exp2(std::ceil(std::log2(std::max(1.0f, *place)))));
   return picture;
 }
 
@@ -113,6 +126,7 @@ Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options)
 void RunPictures::parameters(Parameters& p) {
   link_.parameters(p, "run");
   p("run.spectrum_of", spectrum_of_, 0, 2);
+  p("run.gain", gain_, 0, static_cast<int>(kGains.size()) - 1);
 }
 
 RunPictures::Made RunPictures::make(const Subject& subject, std::shared_ptr<const Picture> target) {
@@ -126,7 +140,7 @@ RunPictures::Made RunPictures::make(const Subject& subject, std::shared_ptr<cons
   return {.of = subject,
           .permuted = shared(permuted_picture(levels, move)),
           .target = std::move(target),
-          .difference = shared(difference_picture(levels, move, options.step)),
+          .difference = shared(difference_picture(levels, move, options.step, kGains[subject.gain])),
           .offsets = shared(offset_picture(move, options))};
 }
 
@@ -151,7 +165,7 @@ void RunPictures::show(std::shared_ptr<const Source> source, const RetargetOptio
   constexpr std::int64_t kMostShown = std::int64_t{8192} * 8192;
   too_large_ = source && source->levels.value.size().area() > kMostShown;
   if (too_large_) source.reset();
-  wanted_ = {std::move(source), std::move(placement), options};
+  wanted_ = {std::move(source), std::move(placement), options, static_cast<std::size_t>(gain_)};
   // Another image's pictures would stand beside this one's figures.
   if (wanted_.source != shown_.source && wanted_.source != making_.source) clear();
   take_pictures();
@@ -201,8 +215,7 @@ void RunPictures::take_spectrum() {
         picture.size = grey.size();
         picture.values.assign(grey.begin(), grey.end());
         picture.describe = [size = grey.size()](int x, int y) {
-          return fmt::format("f = ({:.3f}, {:.3f}) cycles/pixel",
-                             static_cast<double>(x - size.width / 2) / size.width,
+          return fmt::format("f = ({:.3f}, {:.3f})", static_cast<double>(x - size.width / 2) / size.width,
                              static_cast<double>(y - size.height / 2) / size.height);
         };
         return Transformed{std::move(picture), radial_power(power)};
@@ -220,6 +233,11 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
   set_label_width(0);
   flow(choice_width("Spectrum of", kOf), em(1.5f));
   if (choice("Spectrum of", kOf, spectrum_of_)) spectrum_stale_ = true;
+  static constexpr const char* kGainWords[] = {"auto", "×1", "×8", "×64"};
+  flow(choice_width("Difference", kGainWords), em(1.5f));
+  choice("Difference", kGainWords, gain_,
+         "Gain: with ×8 an eighth of all levels is white; auto: what is there. The scale stands below the "
+         "picture");
   const float bar = ImGui::GetCursorPosY() - before, line = ImGui::GetTextLineHeightWithSpacing();
   const float range = ranges ? em(2.5f) + row_gap : 0.0f;
   // As many columns as make the pictures largest.

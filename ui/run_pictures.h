@@ -20,8 +20,9 @@ namespace bn::ui {
 Picture permuted_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move);
 /// The levels that belong there: at v the level of v + d.
 Picture target_picture(const Grid<std::int32_t>& levels, Offset step);
-/// The size of their difference.
-Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step);
+/// The size of their difference. White is 1 / `gain` of all levels; 0: a power of two that nearly all is
+/// below.
+Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step, int gain);
 /// The length that has the full colour in offset_picture().
 double longest_move(const RetargetOptions& options);
 /// R(u) - m in the colours of bn/palette.h: the hue says where to, its strength how far; with arrows where
@@ -47,13 +48,14 @@ class RunPictures {
     std::shared_ptr<const Source> source;
     std::shared_ptr<const Placement> placement;
     RetargetOptions options;
+    std::size_t gain = 0;
     bool same_image(const Subject& other) const {
       return source == other.source && options.step == other.options.step &&
              options.motion == other.options.motion;
     }
     bool same(const Subject& other) const {
       return same_image(other) && placement == other.placement && options.radius == other.options.radius &&
-             options.reach == other.options.reach;
+             options.reach == other.options.reach && gain == other.gain;
     }
   };
   struct Made {
@@ -77,6 +79,7 @@ class RunPictures {
   MoveLegend legend_;
   ViewLink link_, spectrum_link_;
   int spectrum_of_ = 0;  ///< 0 permuted, 1 target, 2 difference
+  int gain_ = 0;         ///< index into kGains
   bool spectrum_stale_ = false;
   Task<Transformed> transform_;
   std::optional<RadialCurve> curve_;

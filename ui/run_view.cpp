@@ -324,7 +324,7 @@ void RunView::draw_plots(ImVec2 size) {
   if (columns == 2) ImGui::SameLine();
   acceptance_plot_.draw("Acceptance plot", acceptance, {width, height}, plot_link_);
   if (columns > 2) ImGui::SameLine();
-  surface_plot_.draw("Surface plot", surface, {columns == 2 ? size.x : last_width, height}, surface_link_);
+  surface_plot_.draw("Surface plot", surface, {columns == 2 ? size.x : last_width, height}, plot_link_);
 }
 
 }  // namespace bn::ui

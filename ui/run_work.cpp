@@ -11,14 +11,10 @@
 #include "ui/run_view.h"
 
 namespace bn::ui {
-namespace {
-
 bool same(const RetargetOptions& a, const RetargetOptions& b) {
   return a.step == b.step && a.motion == b.motion && a.radius == b.radius && a.reach == b.reach &&
          a.metric == b.metric && a.wrap == b.wrap;
 }
-
-}  // namespace
 
 void RunView::load_source(App& app) {
   const SourceChoice choice = settings_.source();

@@ -63,7 +63,7 @@ void TextureView::draw_moves(ImVec2 size) {
   figure.heat = std::move(heat);
   // Square cells, as far as there is room.
   const float high = std::min(size.x * 0.9f, size.y - em(16));
-  plot_.draw("Energy map", figure, {size.x, std::max(em(12), high)}, plot_link_);
+  energy_map_.draw("Energy map", figure, {size.x, std::max(em(12), high)}, energy_link_);
 }
 
 }  // namespace bn::ui

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <utility>
 
 #include "ui/app.h"
+#include "ui/flow.h"
 #include "ui/keys.h"
 #include "ui/widgets.h"
 
@@ -61,6 +63,9 @@ void TextureView::take(std::shared_ptr<const TextureFile> texture) {
   analysed_ = {};
   analysis_.reset();
   verdict_.reset();
+  link_.pinned.reset();
+  go_to_.clear();
+  go_to_refused_ = false;
   spectrum_.clear();
   verifying_.stop();
   if (texture_->metadata) {
@@ -164,10 +169,12 @@ void TextureView::draw(App& app) {
   update(app);
   if (!texture_) {
     begin_panel("empty");
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    ImGui::SetCursorPosY(room.y * 0.4f);
-    note(loading_.running() ? "Reading …" : "Drop a texture here, an atlas, or a folder of slices.");
+    begin_centred("what to do", "No texture yet");
+    note(loading_.running()
+             ? "Reading …"
+             : "Drop a texture here: a mask, a retarget tile or atlas, a volume, a folder of slices.");
     if (button("Open a texture …")) app.ask_open();
+    end_centred();
     end_panel();
     return;
   }
@@ -203,11 +210,17 @@ void TextureView::draw(App& app) {
 void TextureView::draw_picture(ImVec2 size) {
   const float top = ImGui::GetCursorPosY();
   draw_link_controls(link_);
+  draw_pixel_controls();
   draw_section_controls();
   const float controls = ImGui::GetCursorPosY() - top;
-  const float range = picture_.has_range() ? em(3.2f) : 0.0f;
-  picture_.draw("Picture", link_, {size.x, size.y - controls - range - ImGui::GetStyle().ItemSpacing.y});
-  picture_.draw_range("Range", range);
+  const bool has_range = picture_.has_range();
+  const float gap = ImGui::GetStyle().ItemSpacing.y, histogram = has_range ? em(3.2f) : 0.0f;
+  const float fields = has_range ? ImGui::GetFrameHeightWithSpacing() + gap : 0.0f;
+  picture_.draw("Picture", link_, {size.x, size.y - controls - histogram - fields - gap});
+  picture_.draw_range("Range", histogram);
+  set_label_width(0);
+  picture_.draw_range_fields();
+  set_label_width(8);
 }
 
 void TextureView::draw_section_controls() {
@@ -234,6 +247,31 @@ void TextureView::draw_section_controls() {
     }
   }
   set_label_width(8);
+}
+
+void TextureView::draw_pixel_controls() {
+  if (picture_.picture()->hex_digits > 0) {
+    flow(em(5), em(1));
+    checkbox("Hex", link_.hex, "Values as hexadecimal numbers");
+  }
+  flow(em(11), em(1));
+  set_label_width(0);
+  const Extent size = picture_.picture()->size;
+  if (field("Go to", go_to_, "A pixel: x, y. It is pinned; empty: none is")) {
+    int x = -1, y = -1;
+    go_to_refused_ = false;
+    if (go_to_.empty()) {
+      link_.pinned.reset();
+    } else if (std::sscanf(go_to_.c_str(), "%d , %d", &x, &y) == 2 && x >= 0 && y >= 0 && x < size.width &&
+               y < size.height) {
+      link_.go_to({x, y}, size);
+    } else {
+      go_to_refused_ = true;
+    }
+  }
+  if (go_to_refused_)
+    complaint("No such pixel",
+              fmt::format("A pixel is \"x, y\", 0..{} and 0..{}.", size.width - 1, size.height - 1));
 }
 
 void TextureView::draw_channel_buttons() {

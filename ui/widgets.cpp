@@ -68,8 +68,8 @@ void judge_number(T& value, T low, T high) {
 }
 
 /// As end_row(); what was not taken is told once the user is done typing.
-void end_number_row(std::string_view hint) {
-  if (not_taken.widget == ImGui::GetID("##value") && !ImGui::IsItemActive()) {
+void end_number_row(std::string_view hint, bool active) {
+  if (not_taken.widget == ImGui::GetID("##value") && !active) {
     const std::string why = not_taken.why;
     end_row(hint);
     complaint("Not taken", why);
@@ -82,6 +82,26 @@ std::string printf_text(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
+}
+
+/// A slider by `draw`, with its value on the right, where no knob covers it.
+template <class T, class Shown, class Draw>
+bool track(const char* label, T& value, T low, T high, Shown shown, std::string_view hint, Draw draw) {
+  begin_row(label);
+  const auto width = [&](T number) { return ImGui::CalcTextSize(shown(number).c_str()).x; };
+  const float room = std::max({width(low), width(high), width(value)}) + ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(-room);
+  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
+  if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(0, 0, 0, 0));
+  const bool changed = draw();
+  if (!typing) ImGui::PopStyleColor();
+  if (changed) judge_number(value, low, high);
+  items::record(label, shown(value));
+  const bool active = ImGui::IsItemActive();
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::TextUnformatted(shown(value).c_str());
+  end_number_row(hint, active);
+  return changed;
 }
 
 template <class T>
@@ -98,7 +118,7 @@ bool number_field(const char* label, T& value, std::string text, T low, T high, 
   }
   items::record(label, text);
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  end_number_row(hint);
+  end_number_row(hint, ImGui::IsItemActive());
   return done;
 }
 
@@ -202,24 +222,18 @@ bool combo(const char* label, std::span<const std::string> words, int& index, st
 }
 
 bool slider(const char* label, int& value, int low, int high, std::string_view hint) {
-  begin_row(label);
-  const bool changed = ImGui::SliderInt("##value", &value, low, high, "%d");
-  if (changed) judge_number(value, low, high);
-  items::record(label, fmt::format("{}", value));
-  end_number_row(hint);
-  return changed;
+  const auto shown = [](int number) { return fmt::format("{}", number); };
+  return track(label, value, low, high, shown, hint,
+               [&] { return ImGui::SliderInt("##value", &value, low, high, "%d"); });
 }
 
 bool slider(const char* label, double& value, double low, double high, const char* format, bool logarithmic,
             std::string_view hint) {
-  begin_row(label);
-  const auto flags = logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
-  const bool changed =
-      ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format, flags);
-  if (changed) judge_number(value, low, high);
-  items::record(label, printf_text(format, value));
-  end_number_row(hint);
-  return changed;
+  const auto shown = [&](double number) { return printf_text(format, number); };
+  return track(label, value, low, high, shown, hint, [&] {
+    const auto flags = logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
+    return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format, flags);
+  });
 }
 
 bool slider(const char* label, int& value, const Option& option) {
@@ -272,7 +286,7 @@ bool field(const char* label, std::optional<T>& value, std::string_view otherwis
   }
   items::record(label, value ? fmt::format("{}", *value) : std::string(otherwise));
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  end_number_row(hint);
+  end_number_row(hint, ImGui::IsItemActive());
   return done;
 }
 template bool field(const char*, std::optional<int>&, std::string_view, std::string_view);
@@ -340,6 +354,17 @@ void progress_bar(const char* label, double share, std::string_view text) {
   ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, 0}, std::string(text).c_str());
   items::record(label, text);
 }
+
+void begin_centred(const char* name, const char* title) {
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float width = std::min(room.x, em(30));
+  ImGui::SetCursorPos(
+      {ImGui::GetCursorPosX() + 0.5f * (room.x - width), ImGui::GetCursorPosY() + 0.3f * room.y});
+  ImGui::BeginChild(name, {width, 0}, false, ImGuiWindowFlags_NoBackground);
+  heading(title);
+}
+
+void end_centred() { ImGui::EndChild(); }
 
 bool begin_panel(const char* name, ImVec2 size) {
   return ImGui::BeginChild(name, size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);

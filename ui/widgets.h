@@ -74,6 +74,11 @@ void note(std::string_view text);
 void complaint(const char* name, std::string_view text);
 void progress_bar(const char* label, double share, std::string_view text);
 
+/// A column in the middle of a view that is still empty, for what to do about that. Call end_centred()
+/// always.
+void begin_centred(const char* name, const char* title);
+void end_centred();
+
 /// A child window with the panel's colour and padding. Size as ImGui::BeginChild. Call end_panel() always.
 bool begin_panel(const char* name, ImVec2 size = {0, 0});
 void end_panel();

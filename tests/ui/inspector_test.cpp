@@ -206,6 +206,40 @@ wait-for "Figures of channel" = "of channel R"
   EXPECT_LT(red, green / 20) << "red is switched off";
 }
 
+TEST(Inspector, ShowsValuesInTexelsAndTheRangeAsNumbers) {
+  const Workplace here;
+  here.write_mask("mask.png", 64);
+  const Image mask = read_image(here / "mask.png").image;
+  const int level = static_cast<int>(mask.samples[7 * 64 + 5]);
+  expect_success(here.script(fmt::format(R"s(
+open mask.png
+wait-for "Peak power" > 0
+expect "Picture values" gone                # too small
+expect Range = "0..255"
+set Black 10
+set White 200
+wait-for Range = "10..200"
+set White 999
+wait-for White = 255
+expect "Not taken" contains "allowed: 10..255"
+click Auto
+wait-for Range = "0..255"
+set "Go to" "5, 7"
+wait-for "Picture values" = decimal
+expect Pixel = "(5, 7)  {0}, pinned"
+screenshot values.png
+click Hex
+wait-for "Picture values" = hexadecimal
+expect Pixel = "(5, 7)  {0:02X}, pinned"
+set "Go to" "64, 0"
+wait-for "No such pixel" contains "0..63"
+set "Go to" ""
+wait-for "No such pixel" gone
+expect Pixel gone
+)s",
+                                         level)));
+}
+
 TEST(Inspector, OpensAStackThatBnBaked) {
   const Workplace here;
   for (const char* path : {"stack.ktx2", "stack/slice_%03d.png"}) {

@@ -27,6 +27,22 @@ TEST(OffsetPicture, HasTheColoursOfThePalette) {
   EXPECT_NE(picture.colours[0], IM_COL32_WHITE);
 }
 
+TEST(DifferencePicture, HasAScaleThatShowsWhatIsThere) {
+  Grid<std::int32_t> levels({16, 16});
+  for (std::size_t i = 0; i < levels.count(); ++i) levels[i] = static_cast<std::int32_t>(i);
+  const Grid<Offset> still({16, 16}, Offset{0, 0});
+  // Every level differs from its right neighbour's by 1, but at the border.
+  EXPECT_EQ(difference_picture(levels, still, {1, 0}, 1).high, 255.0f);
+  EXPECT_EQ(difference_picture(levels, still, {1, 0}, 8).high, 32.0f);
+  EXPECT_EQ(difference_picture(levels, still, {0, 1}, 0).high, 255.0f) << "16, or 240 at the border";
+  EXPECT_EQ(difference_picture(levels, still, {0, 0}, 0).high, 1.0f);
+  levels[0] = 3;
+  EXPECT_EQ(difference_picture(Grid<std::int32_t>({16, 16}, 5), still, {1, 0}, 0).high, 1.0f);
+  Grid<std::int32_t> nearly({16, 16}, 5);
+  for (std::size_t i = 0; i < 256; i += 4) nearly[i] = 17;
+  EXPECT_EQ(difference_picture(nearly, still, {1, 0}, 0).high, 16.0f) << "the power of two above 12";
+}
+
 TEST(Palette, IsTheOneOfFiguresOnLightAndDarkPages) {
   std::ifstream file(BN_PLOTS "/figures.gnuplot");
   const std::string script(std::istreambuf_iterator<char>(file), {});

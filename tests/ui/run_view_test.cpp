@@ -432,6 +432,57 @@ expect Error gone
   for (const VerifyItem& item : verify_path(here / "open/tile.png")) EXPECT_TRUE(item.pass) << item.detail;
 }
 
+TEST(RunView, ShowsOneCursorInAllPlotsOverProposals) {
+  const Workplace here;
+  expect_success(here.script(R"s(wait 2
+set Proposals 2e8
+click Start
+wait-for State = finished
+hover "Energy plot" 0.5 0.5
+wait 3
+expect "Energy plot cursor" > 1e6
+expect "Temperature plot cursor" > 1e6
+expect "Acceptance plot cursor" > 1e6
+expect "Surface plot cursor" > 1e6
+expect "Power plot cursor" gone              # it is over frequencies
+)s"));
+}
+
+TEST(CompareView, MarksTheBestAndSortsByColumns) {
+  const Workplace here;
+  const Outcome outcome = here.script(R"(
+key ctrl+2
+wait 3
+click "Go to Run"
+wait 3
+expect Run = on
+set Proposals 1e7
+click Start
+wait-for State = finished
+set Proposals 1e5
+click Start
+wait-for State = finished
+key ctrl+2
+wait-for "Gap 2" contains %
+expect "Energy 1" contains best
+expect "Row 1" = 1
+click "Sort by Gap"
+wait 3
+expect "Row 1" = 1
+click "Sort by Gap"
+wait 3
+expect "Row 1" = 2
+click "Sort by Proposals"
+wait 3
+expect "Row 1" = 2
+click "B 1"
+wait 3
+expect "B 1" = on
+expect "Energies cursor" gone
+)");
+  expect_success(outcome);
+}
+
 TEST(CompareView, HoldsRunsAgainstEachOtherAndExportsThem) {
   const Workplace here;
   expect_success(here.script(R"(wait 2
