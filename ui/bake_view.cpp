@@ -9,6 +9,8 @@
 
 #include "bn/error.h"
 #include "ui/app.h"
+#include "ui/recipe_text.h"
+#include "ui/texture_file.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
@@ -95,7 +97,10 @@ void BakeView::update(App& app) {
   const bool wanted = planned_path_ != recipe_path_ || planned_out_ != out_dir_;
   if (wanted && !recipe_path_.empty() && !baking_.running() && !ImGui::IsAnyItemActive()) plan();
   try {
-    if (auto planned = planning_.poll()) planned_ = std::move(*planned);
+    if (auto planned = planning_.poll()) {
+      planned_ = std::move(*planned);
+      read_sheet();
+    }
   } catch (...) {
     planned_.reset();
     app.report_in_flight();
@@ -103,6 +108,7 @@ void BakeView::update(App& app) {
   try {
     if (auto result = baking_.poll()) {
       app.say(fmt::format("Baked into {} in {:.2f} s", out_dir_, result->seconds));
+      read_sheet();
     }
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) {
@@ -115,14 +121,41 @@ void BakeView::update(App& app) {
   }
 }
 
+/// In the background, where it is there.
+void BakeView::read_sheet() {
+  reading_.stop();
+  const auto path = std::filesystem::path(planned_out_) / planned_->recipe.contact_sheet;
+  std::error_code error;
+  if (planned_->recipe.contact_sheet.empty() || !std::filesystem::is_regular_file(path, error))
+    return sheet_.clear();
+  reading_.start([path](const Execution& execution) {
+    return std::make_shared<const Picture>(picture_of(read_texture(path, execution), {}));
+  });
+}
+
+void BakeView::draw_sheet() {
+  try {
+    if (auto sheet = reading_.poll()) sheet_.set(std::move(*sheet));
+  } catch (const Error&) {
+    sheet_.clear();  // a file of that name that is no picture; the plan says what will become of it
+  }
+  if (planned_->recipe.contact_sheet.empty()) return;
+  heading("Contact sheet");
+  if (sheet_.empty())
+    return note(reading_.running() ? "Reading …" : "It stands here once the recipe is baked.");
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  sheet_.draw("Contact sheet", sheet_link_, {room.x, std::max(em(16), room.y)});
+}
+
 void BakeView::draw(App& app) {
   update(app);
   const float controls = std::min(em(24), ImGui::GetContentRegionAvail().x * 0.42f);
   begin_panel("bake", {recipe_path_.empty() ? 0.0f : controls, 0});
   if (recipe_path_.empty()) {
-    ImGui::SetCursorPosY(ImGui::GetContentRegionAvail().y * 0.4f);
-    note("Drop a recipe (.toml) here.");
+    begin_centred("what to do", "No recipe yet");
+    note("Drop a recipe (.toml) here: it names masks and retarget tiles, which are made into one folder.");
     if (button("Open a recipe …")) app.ask_open();
+    end_centred();
     end_panel();
     return;
   }
@@ -136,6 +169,7 @@ void BakeView::draw(App& app) {
   const bool wide = room.x > em(48);
   begin_panel("jobs", wide ? ImVec2(room.x * 0.62f, 0) : ImVec2(0, room.y * 0.6f));
   if (planned_) draw_jobs(app);
+  if (planned_) draw_sheet();
   if (!planned_) note(planning_.running() ? "Planning …" : "There is no plan.");
   end_panel();
   if (wide) ImGui::SameLine();
@@ -245,9 +279,7 @@ void BakeView::draw_job(App& app, int index, bool narrow) {
 
 void BakeView::draw_recipe() {
   heading("Text");
-  ImGui::PushFont(mono_font());
-  note(planned_->recipe.text);
-  ImGui::PopFont();
+  show_recipe(planned_->recipe.text);
 }
 
 }  // namespace bn::ui

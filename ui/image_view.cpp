@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bn/spectrum.h"
+#include "ui/keys.h"
 #include "ui/parameters.h"
 #include "ui/widgets.h"
 
@@ -40,9 +41,9 @@ void ViewLink::go_to(Offset texel, Extent size) {
 }
 
 void draw_link_controls(ViewLink& link) {
-  if (button("Fit", true, "The whole picture (F, or a double click on it)")) link.fit();
+  if (button("Fit", true, "The whole picture (F, or a double click on it)") || shortcut("f")) link.fit();
   ImGui::SameLine();
-  if (button("1:1", true, "One texel to a pixel of the screen (1)")) link.zoom = 1.0;
+  if (button("1:1", true, "One texel to a pixel of the screen (1)") || shortcut("1")) link.zoom = 1.0;
   ImGui::SameLine();
   bool linear = !link.nearest;
   if (checkbox("Linear", linear, "Enlarge smoothly; off: every texel is a square")) link.nearest = !linear;

@@ -223,14 +223,10 @@ void RunPictures::take_spectrum() {
       1);
 }
 
-void RunPictures::draw(ImVec2 size, bool ranges) {
-  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
-  constexpr int kPictures = 5;
-  const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
-  const float before = ImGui::GetCursorPosY();
+void RunPictures::draw_controls() {
   draw_link_controls(link_);
-  static constexpr const char* kOf[] = {"permuted", "target", "difference"};
   set_label_width(0);
+  static constexpr const char* kOf[] = {"permuted", "target", "difference"};
   flow(choice_width("Spectrum of", kOf), em(1.5f));
   if (choice("Spectrum of", kOf, spectrum_of_)) spectrum_stale_ = true;
   static constexpr const char* kGainWords[] = {"auto", "×1", "×8", "×64"};
@@ -238,7 +234,25 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
   choice("Difference", kGainWords, gain_,
          "Gain: with ×8 an eighth of all levels is white; auto: what is there. The scale stands below the "
          "picture");
-  const float bar = ImGui::GetCursorPosY() - before, line = ImGui::GetTextLineHeightWithSpacing();
+}
+
+void RunPictures::draw(ImVec2 size, bool ranges) {
+  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
+  const float before = ImGui::GetCursorPosY();
+  draw_controls();
+  draw_pictures({size.x, size.y - (ImGui::GetCursorPosY() - before)}, ranges);
+}
+
+void RunPictures::draw_controls_last(ImVec2 size) {
+  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
+  draw_pictures(size, false);
+  draw_controls();
+}
+
+void RunPictures::draw_pictures(ImVec2 size, bool ranges) {
+  constexpr int kPictures = 5;
+  const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
+  const float line = ImGui::GetTextLineHeightWithSpacing();
   const float range = ranges ? em(2.5f) + row_gap : 0.0f;
   // As many columns as make the pictures largest.
   int columns = 1;
@@ -246,9 +260,9 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
   for (int c = 1; c <= kPictures; ++c) {
     const int rows = (kPictures + c - 1) / c;
     const float w = (size.x - gap * static_cast<float>(c - 1)) / static_cast<float>(c);
-    const float h = std::max(em(7), (size.y - bar) / static_cast<float>(rows) - line - range - row_gap);
+    const float h = std::max(em(7), size.y / static_cast<float>(rows) - line - range - row_gap);
     // Below the picture stands a line of values.
-    if (c > 1 && std::min(w, h - line) <= std::min(width, height - line)) continue;
+    if (c > 1 && std::min(w, h - line) < std::min(width, height - line)) continue;
     columns = c, width = w, height = h;
   }
   const std::tuple<const char*, ImageView*, ViewLink*, const char*> all[] = {

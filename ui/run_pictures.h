@@ -37,6 +37,8 @@ class RunPictures {
             std::shared_ptr<const Placement> placement);
   /// Five pictures, `size` in all; with `ranges` each has the control of its range below.
   void draw(ImVec2 size, bool ranges);
+  /// For narrow windows: the pictures take `size`, their controls stand below.
+  void draw_controls_last(ImVec2 size);
   Figure spectrum_figure() const;  ///< power by frequency
   bool busy() const;
   void parameters(Parameters& p);
@@ -68,6 +70,8 @@ class RunPictures {
     Picture picture;
     RadialCurve curve;
   };
+  void draw_controls();
+  void draw_pictures(ImVec2 size, bool ranges);
   void clear();
   void take_pictures();
   void take_spectrum();

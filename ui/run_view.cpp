@@ -89,8 +89,6 @@ void RunView::draw(App& app) {
   ImGui::BeginChild("run");
   ImGui::PopStyleColor();
   draw_controls(app);
-  draw_standing();
-
   const Run* run = entry_ ? entry_->run.get() : nullptr;
   // What is shown is of the run, until the settings ask for another image.
   try {
@@ -102,17 +100,21 @@ void RunView::draw(App& app) {
   } catch (...) {
     app.report_in_flight();
   }
+  // In a narrow window pictures come before figures, each as high as it needs, and all of it scrolls.
+  const bool narrow = ImGui::GetContentRegionAvail().x < em(40);
+  if (!narrow) draw_standing();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  // In a narrow window the panels are as high as they need, and all of it scrolls.
-  const bool narrow = room.x < em(40);
-  if (layout_ != 1) {
-    const float tall = 1.5f * room.x + em(12);
-    begin_panel("pictures", {0, narrow         ? tall
-                                : layout_ == 2 ? std::max(em(20), room.y)
-                                               : std::max(em(14), room.y * 0.42f)});
+  if (layout_ != 1 && narrow) {
+    const float pictures = std::max(em(16), room.y - em(2));
+    begin_panel("pictures", {0, pictures + em(8)});
+    pictures_.draw_controls_last({ImGui::GetContentRegionAvail().x, pictures});
+    end_panel();
+  } else if (layout_ != 1) {
+    begin_panel("pictures", {0, layout_ == 2 ? std::max(em(20), room.y) : std::max(em(14), room.y * 0.42f)});
     pictures_.draw(ImGui::GetContentRegionAvail(), layout_ == 2);
     end_panel();
   }
+  if (narrow) draw_standing();
   if (layout_ != 2) {
     begin_panel("plots", {0, narrow ? em(60) : std::max(em(20), ImGui::GetContentRegionAvail().y)});
     draw_plots(ImGui::GetContentRegionAvail());

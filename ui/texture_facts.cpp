@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/app.h"
+#include "ui/recipe_text.h"
 #include "ui/texture_view.h"
 #include "ui/widgets.h"
 
@@ -142,9 +143,7 @@ void TextureView::draw_metadata() {
   value("Pixel hash", texture_->hash_fits ? "as recorded" : "not the recorded one",
         texture_->hash_fits ? palette().good : palette().bad, m.pixel_hash);
   if (ImGui::TreeNode("Recipe")) {
-    ImGui::PushFont(mono_font());
-    note(m.recipe);
-    ImGui::PopFont();
+    show_recipe(m.recipe);
     ImGui::TreePop();
   }
   items::record("Recipe");

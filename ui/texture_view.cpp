@@ -180,7 +180,6 @@ void TextureView::draw(App& app) {
   }
   const bool stack = slice_count(*texture_, section_.cut) > 1 && motion_range(*texture_) == 0;
   if (shortcut("space") && stack) playing_ = !playing_;
-  if (shortcut("f")) link_.fit();
 
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -199,11 +198,12 @@ void TextureView::draw(App& app) {
     ImGui::SameLine();
   }
   begin_panel("facts", {0, 0});
-  draw_facts(app);
+  // Pictures before figures, and a glimpse of the figures, to tell that there is more.
   if (narrow) {
-    if (!is_retarget(*texture_)) heading("Spectrum");
-    draw_spectrum({ImGui::GetContentRegionAvail().x, em(26)});
+    const ImVec2 rest = ImGui::GetContentRegionAvail();
+    draw_spectrum({rest.x, std::max(em(18), rest.y - em(3))});
   }
+  draw_facts(app);
   end_panel();
 }
 

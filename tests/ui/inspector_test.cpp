@@ -113,6 +113,7 @@ click Bake
 wait-for Status contains "Baked into baked"
 expect "retarget moves" = baked
 expect Progress contains "100 %"
+wait-for "Contact sheet shown" = yes
 screenshot bake.png
 click "Read again"
 wait-for "mask mask" = "up to date"
@@ -324,6 +325,61 @@ wait-for Threads = 3
 )s"));
 }
 
+TEST(Inspector, HasMenusForViewsRecentFilesAndHelp) {
+  const Workplace here;
+  here.write_mask("one.png", 16);
+  here.write_mask("two.png", 32);
+  expect_success(here.script(R"s(
+wait 3
+click File
+wait 3
+expect "Open again" disabled
+key escape
+open one.png
+wait-for Size = "16 × 16"
+open two.png
+wait-for Size = "32 × 32"
+click View
+wait 3
+expect "View: Texture" = on
+click "View: Bake"
+wait-for Bake = on
+key ctrl+3
+wait 3
+click File
+wait 3
+hover "Open again"
+wait 30
+click )s" + here.path("one.png") +
+                             R"s(
+wait-for Size = "16 × 16"
+key f1
+wait 3
+expect S = "one sweep"
+expect X = "Compare, Flip: change over"
+screenshot keys.png
+key escape
+wait 3
+expect S gone
+key f1
+wait 3
+key f1
+wait 3
+expect S gone
+click Help
+wait 3
+click "About and documentation"
+wait 3
+expect Documentation contains docs/inspector.md
+click Close
+wait 3
+expect Documentation gone
+)s"));
+  // Dimmed: the menu's words behind the page are less bright than before.
+  const Image keys = read_image(here / "keys.png").image;
+  EXPECT_LT(contrast(keys, {0.0, 0.0, 0.2, 0.03}), 30.0);
+}
+
 TEST(Inspector, KeepsItsSessionAndShrugsOffADamagedOne) {
   const Workplace here;
   here.write_mask("mask.png", 32);
@@ -466,6 +522,31 @@ TEST(Inspector, IsReadableAtTwiceTheSizeInBothThemes) {
     EXPECT_GT(contrast(shot, {0.05, 0.35, 0.50, 0.7}), 50.0) << theme;
     EXPECT_GT(contrast(shot, {0.56, 0.2, 0.95, 0.8}), 10.0) << theme;
   }
+}
+
+TEST(Inspector, ShowsPicturesFirstWhereThereIsLittleRoom) {
+  const Workplace here;
+  here.write_mask("mask.png", 64);
+  const Outcome outcome = here.script(R"s(
+open mask.png
+wait-for "Peak power" > 0
+resize 800 600
+wait 5
+expect Spectrum shown
+expect "Radial power" shown
+expect Name shown
+resize 1280 800
+scale 2
+wait 5
+expect Spectrum shown
+click Run
+wait 5
+expect Permuted shown
+expect Spectrum shown
+screenshot run.png
+)s");
+  expect_success(outcome);
+  EXPECT_GT(contrast(read_image(here / "run.png").image, {0.45, 0.4, 0.95, 0.6}), 30.0) << "the pictures";
 }
 
 TEST(Inspector, SurvivesRandomEvents) {
