@@ -17,7 +17,16 @@ namespace bn::ui {
 namespace {
 
 std::string seconds_text(double seconds) {
-  return seconds < 120.0 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
+  return seconds < 10.0    ? fmt::format("{:.2f} s", seconds)
+         : seconds < 120.0 ? fmt::format("{:.0f} s", seconds)
+                           : fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+/// An estimate, with no more digits than it deserves.
+std::string about_text(double seconds) {
+  return seconds < 0.1    ? "< 0.1 s"
+         : seconds < 10.0 ? fmt::format("{:.1f} s", seconds)
+                          : seconds_text(seconds);
 }
 
 std::string energy_text(const std::vector<TileRecord>& tiles) {
@@ -209,7 +218,7 @@ void BakeView::draw_controls(App& app) {
   value("Jobs", stand > 0 ? fmt::format("{}, of which {} are up to date", plan.jobs.size(), stand)
                           : fmt::format("{}", plan.jobs.size()));
   const bool nothing = stand == static_cast<std::ptrdiff_t>(plan.jobs.size());
-  value("Time", nothing ? "nothing to make" : "about " + seconds_text(plan.estimated_seconds),
+  value("Time", nothing ? "nothing to make" : "about " + about_text(plan.estimated_seconds),
         "Of what is to be made, on one core");
   value("Memory",
         fmt::format("about {:.0f} MiB", static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
@@ -258,7 +267,7 @@ void BakeView::draw_job(App& app, int index, bool narrow) {
   note(job.kind);
   if (!narrow) ImGui::TableNextColumn();
   ImGui::TextUnformatted(record && !record->skipped ? seconds_text(record->seconds).c_str()
-                                                    : ("~ " + seconds_text(job.estimated_seconds)).c_str());
+                                                    : ("~ " + about_text(job.estimated_seconds)).c_str());
   if (!narrow) ImGui::TableNextColumn();
   if (record) ImGui::TextWrapped("%s", energy_text(record->tiles).c_str());
   ImGui::TableNextColumn();

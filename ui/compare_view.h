@@ -49,6 +49,7 @@ class CompareView {
   bool is_best(const RunEntry& entry) const;
   void draw_row(Kept& kept);
   void draw_plots(ImVec2 size);
+  void choose_pair(float width);
   void draw_pictures(ImVec2 size);
   bool refresh(Side& side);
   void start_export(App& app, const std::filesystem::path& folder);

@@ -156,7 +156,7 @@ std::string ImageView::describe(int x, int y, bool hex) const {
 }
 
 /// The line below the picture: of the texel under the mouse, else of the pinned one, else of all.
-std::string ImageView::below(const ViewLink& link) const {
+std::string ImageView::below(const ViewLink& link, float width) const {
   const auto texel = [&](Offset at) {
     // What describes itself is not addressed by texels: a spectrum.
     const std::string value = describe(at.x, at.y, link.hex);
@@ -168,9 +168,10 @@ std::string ImageView::below(const ViewLink& link) const {
   if (is_here(link.cursor)) return texel(*link.cursor);
   if (failed_) return "not enough memory to show it";
   if (is_here(link.pinned)) return texel(*link.pinned) + ", pinned";
-  std::string text = fmt::format("{} × {}", picture_->size.width, picture_->size.height);
-  if (has_range() && !picture_->describe) text += fmt::format(", {} … {}", number(low_), number(high_));
-  return text;
+  const std::string size = fmt::format("{} × {}", picture_->size.width, picture_->size.height);
+  if (!has_range() || picture_->describe) return size;
+  const std::string range = fmt::format("{} … {}", number(low_), number(high_)), both = size + ", " + range;
+  return ImGui::CalcTextSize(both.c_str()).x <= width ? both : range;
 }
 
 float ImageView::widest_value(bool hex) const {
@@ -300,16 +301,16 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
     };
     frame(link.pinned, palette().warn);
     frame(link.cursor, palette().accent);
-    text = below(link);
+    text = below(link, area.x);
     list.PopClipRect();
   }
   list.AddRect(corner, far_corner, palette().line, ImGui::GetStyle().FrameRounding);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
-  ImGui::PushClipRect(ImGui::GetCursorScreenPos(), {far_corner.x, far_corner.y + 2 * line}, true);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopClipRect();
+  // No wider than the picture, whatever it says.
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({area.x, ImGui::GetTextLineHeight()});
+  const ImVec4 clip{at.x, at.y, at.x + area.x, at.y + line};
+  list.AddText(nullptr, 0.0f, at, palette().dim_text, text.c_str(), nullptr, 0.0f, &clip);
   if (hovered || link.pinned) items::record("Pixel", text);
-  ImGui::PopStyleColor();
   // Where there is no room for all of it, it stands at the mouse.
   if (hovered && ImGui::CalcTextSize(text.c_str()).x > area.x) ImGui::SetTooltip("%s", text.c_str());
   ImGui::PopID();

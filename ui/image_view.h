@@ -95,7 +95,7 @@ class ImageView {
   void prepare_texels();
   std::string describe(int x, int y, bool hex) const;
   std::string value_text(float value, bool hex) const;
-  std::string below(const ViewLink& link) const;
+  std::string below(const ViewLink& link, float width) const;
   /// The values of a texel, where they fit into `size` pixels.
   void draw_values(ImDrawList& list, int x, int y, ImVec2 corner, float size, bool hex) const;
   float widest_value(bool hex) const;

@@ -80,6 +80,13 @@ std::int64_t sum(const std::array<std::int64_t, kWorseningClasses>& counts) {
 
 std::string RunEntry::name() const { return fmt::format("#{} {}", number, settings.schedule_name()); }
 
+RunStanding standing_of(const RunEntry& entry) {
+  const Standing standing = entry.run->standing();
+  const auto result = entry.run->has_ended() ? entry.run->result() : nullptr;
+  return {result ? result->tile.energy : standing.state.energy, standing.state.seconds,
+          standing.state.proposals};
+}
+
 std::optional<double> gap_percent(const RunEntry& entry, std::int64_t energy) {
   const RetargetTile* tile = entry.optimum ? entry.optimum->tile() : nullptr;
   if (tile == nullptr || tile->energy <= 0) return {};

@@ -25,6 +25,14 @@ struct RunEntry {
   std::string name() const;  ///< "#2 exponential"
 };
 
+/// What a run has come to: the best once it has ended, else where it stands.
+struct RunStanding {
+  std::int64_t energy = 0;
+  double seconds = 0.0;
+  std::int64_t proposals = 0;
+};
+RunStanding standing_of(const RunEntry& entry);
+
 /// A run as it is drawn.
 struct DrawnRun {
   const RunEntry* entry;

@@ -105,8 +105,8 @@ void RunView::draw(App& app) {
   if (!narrow) draw_standing();
   const ImVec2 room = ImGui::GetContentRegionAvail();
   if (layout_ != 1 && narrow) {
-    const float pictures = std::max(em(16), room.y - em(2));
-    begin_panel("pictures", {0, pictures + em(8)});
+    const float pictures = std::max(em(19), room.y - em(2));
+    begin_panel("pictures", {0, pictures + em(9)});
     pictures_.draw_controls_last({ImGui::GetContentRegionAvail().x, pictures});
     end_panel();
   } else if (layout_ != 1) {
