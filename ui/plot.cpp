@@ -19,7 +19,8 @@ void draw_axes(const Canvas& c, const Figure& figure, const std::vector<Tick>& y
   c.list.AddRectFilled(c.min, c.max, p.background);
   const auto grid = [&](const Tick& t) { return faded(p.line, t.text.empty() ? 90 : 200); };
   float free_from = -FLT_MAX;
-  for (const Tick& t : ticks_of(figure.x, x, (c.max.x - c.min.x) / em(figure.heat ? 2.5f : 5.0f))) {
+  for (const Tick& t :
+       ticks_of(figure.x, x, (c.max.x - c.min.x) / em(figure.heat && x.high < 100.0 ? 2.5f : 5.0f))) {
     const float at = std::round(c.place_x(t.value));
     if (!figure.heat) c.list.AddLine({at, c.min.y}, {at, c.max.y}, grid(t));
     const float wide = ImGui::CalcTextSize(t.text.c_str()).x;

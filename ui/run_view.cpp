@@ -276,7 +276,7 @@ void RunView::draw_standing() {
   }
   progress_bar("Progress", std::min(1.0, static_cast<double>(state.proposals) / budget),
                any ? fmt::format("{} of {} proposals",
-                                 short_number(std::min(static_cast<double>(state.proposals), budget)),
+                                 short_number(std::min(static_cast<double>(state.proposals), budget), 3),
                                  short_number(budget))
                    : "");
   end_panel();

@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <utility>
 
 #include "ui/app.h"
 #include "ui/flow.h"
 #include "ui/keys.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
@@ -21,6 +21,17 @@ constexpr float kNarrowEm = 72.0f;  ///< below this width, the columns on the ri
 constexpr std::array<const char*, 4> kChannels{"R", "G", "B", "A"};
 
 int shown_channels(const TextureFile& texture) { return std::min(texture.images[0].channels, 4); }
+
+/// "x, y" within `size`. None: it is no such pixel.
+std::optional<Offset> pixel_of(std::string text, Extent size) {
+  std::erase(text, ' ');
+  const std::size_t comma = text.find(',');
+  Offset at{-1, -1};
+  const bool two = comma != std::string::npos && read_number(text.substr(0, comma), at.x) &&
+                   read_number(text.substr(comma + 1), at.y);
+  const bool within = at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
+  return two && within ? std::optional(at) : std::nullopt;
+}
 
 }  // namespace
 
@@ -258,15 +269,12 @@ void TextureView::draw_pixel_controls() {
   set_label_width(0);
   const Extent size = picture_.picture()->size;
   if (field("Go to", go_to_, "A pixel: x, y. It is pinned; empty: none is")) {
-    int x = -1, y = -1;
-    go_to_refused_ = false;
-    if (go_to_.empty()) {
+    const auto pixel = pixel_of(go_to_, size);
+    go_to_refused_ = !pixel && !go_to_.empty();
+    if (pixel) {
+      link_.go_to(*pixel, size);
+    } else if (go_to_.empty()) {
       link_.pinned.reset();
-    } else if (std::sscanf(go_to_.c_str(), "%d , %d", &x, &y) == 2 && x >= 0 && y >= 0 && x < size.width &&
-               y < size.height) {
-      link_.go_to({x, y}, size);
-    } else {
-      go_to_refused_ = true;
     }
   }
   if (go_to_refused_)
