@@ -63,16 +63,23 @@ void prepare(CLI::App& app) {
 
 std::string first_word(const std::string& name) { return name.substr(0, name.find(' ')); }
 
-std::string help_remedy(std::string_view of) {
-  return of.empty() ? "see bn --help" : fmt::format("see bn {} --help", of);
+/// What the words are for: a program, and its verb as far as it was named.
+struct Place {
+  std::string program = "bn";
+  std::string verb = {};
+};
+
+std::string help_remedy(const Place& of) {
+  return of.verb.empty() ? fmt::format("see {} --help", of.program)
+                         : fmt::format("see {} {} --help", of.program, of.verb);
 }
 
-std::string suggestion(const std::string& nearest, std::string_view verb) {
-  return nearest.empty() ? help_remedy(verb) : fmt::format("did you mean {}?", nearest);
+std::string suggestion(const std::string& nearest, const Place& of) {
+  return nearest.empty() ? help_remedy(of) : fmt::format("did you mean {}?", nearest);
 }
 
 void fail_unknown_option(const std::string& word, const std::vector<const std::vector<Argument>*>& lists,
-                         const std::string& verb) {
+                         const Place& of) {
   std::vector<std::string> names;
   for (const auto* list : lists) {
     for (const auto& argument : *list) {
@@ -80,7 +87,7 @@ void fail_unknown_option(const std::string& word, const std::vector<const std::v
     }
   }
   const std::string name = word.substr(0, word.find('='));
-  fail(fmt::format("there is no option '{}'", name), verb, suggestion(nearest_word(name, names), verb));
+  fail(fmt::format("there is no option '{}'", name), of.verb, suggestion(nearest_word(name, names), of));
 }
 
 /// The second words of the verbs that begin with `group`.
@@ -105,12 +112,12 @@ std::vector<std::string> methods_of(const std::string& group, const std::vector<
   if (!group.empty()) {
     const std::vector<std::string> methods = methods_of(group, verbs);
     const std::string nearest = nearest_word(word, methods);
-    throw Error(
-        {.code = ErrorCode::usage,
-         .what = fmt::format("there is no method '{}'", word),
-         .where = group,
-         .limit = nearest.empty() ? fmt::format("{}", fmt::join(methods, ", ")) : "",
-         .remedy = suggestion(nearest.empty() ? "" : fmt::format("bn {} {}", group, nearest), group)});
+    throw Error({.code = ErrorCode::usage,
+                 .what = fmt::format("there is no method '{}'", word),
+                 .where = group,
+                 .limit = nearest.empty() ? fmt::format("{}", fmt::join(methods, ", ")) : "",
+                 .remedy = suggestion(nearest.empty() ? "" : fmt::format("bn {} {}", group, nearest),
+                                      {.verb = group})});
   }
   // A method may have been named without its verb, and other programs have a verb for their version.
   std::vector<std::string> known{"version"}, meant{"bn --version"};
@@ -123,10 +130,10 @@ std::vector<std::string> methods_of(const std::string& group, const std::vector<
   }
   const auto found = std::find(known.begin(), known.end(), nearest_word(word, known));
   fail(fmt::format("there is no verb '{}'", word), "",
-       suggestion(found == known.end() ? "" : meant[static_cast<std::size_t>(found - known.begin())], ""));
+       suggestion(found == known.end() ? "" : meant[static_cast<std::size_t>(found - known.begin())], {}));
 }
 
-void assign(const Given& given, const std::string& verb) {
+void assign(const Given& given, const Place& of) {
   const Argument& argument = *given.argument;
   if (argument.is_switch()) {
     if (given.switched > 0) argument.assign("");
@@ -146,7 +153,7 @@ void assign(const Given& given, const std::string& verb) {
   } else if (argument.required) {
     fail(fmt::format("{} is missing",
                      argument.is_positional() ? argument.name : argument.name + " " + argument.placeholder),
-         verb, help_remedy(verb));
+         of.verb, help_remedy(of));
   }
 }
 
@@ -173,8 +180,10 @@ Arguments declare(GlobalOptions& globals) {
   return arguments;
 }
 
-Invocation parse_command_line(const std::vector<std::string>& words, const std::vector<Verb>& verbs,
-                              const Arguments& globals) {
+namespace {
+
+Invocation parse(const std::vector<std::string>& words, const std::string& program,
+                 const std::vector<Verb>& verbs, const Arguments& globals) {
   CLI::App root;
   prepare(root);
   root.require_subcommand(0, 1);
@@ -225,7 +234,7 @@ Invocation parse_command_line(const std::vector<std::string>& words, const std::
     if (candidate.app->parsed()) chosen = &candidate;
   }
   if (chosen != nullptr) invocation.verb = chosen->verb;
-  const std::string name = chosen != nullptr ? chosen->verb->name : invocation.group;
+  const Place place{program, chosen != nullptr ? chosen->verb->name : invocation.group};
 
   for (const auto& given : given_globals) {
     const auto& option = given.argument->name;
@@ -234,28 +243,41 @@ Invocation parse_command_line(const std::vector<std::string>& words, const std::
       return invocation;
     }
   }
-  if (!parse_failure.empty()) fail(parse_failure, name, help_remedy(name));
+  if (!parse_failure.empty()) fail(parse_failure, place.verb, help_remedy(place));
 
   auto extras = root.remaining(true);
   std::erase(extras, "--");  // CLI11 hands back the mark after which every word is a positional argument
   // Options belong to a verb: which one is missing or misspelt comes before what they are.
   if (chosen == nullptr && !extras.empty() && extras.front().starts_with("-") && !invocation.group.empty())
     fail_missing_method(invocation.group, verbs);
-  if (chosen == nullptr && !extras.empty() && !extras.front().starts_with("-"))
+  if (chosen == nullptr && !verbs.empty() && !extras.empty() && !extras.front().starts_with("-"))
     fail_unknown_verb(extras.front(), invocation.group, verbs);
   for (const auto& word : extras) {
     if (word.size() < 2 || word.front() != '-') continue;
     std::vector<const std::vector<Argument>*> lists{&globals.list()};
     if (chosen != nullptr) lists.push_back(&chosen->verb->arguments.list());
-    fail_unknown_option(word, lists, name);
+    fail_unknown_option(word, lists, place);
   }
-  if (!extras.empty()) fail(fmt::format("unexpected argument '{}'", extras.front()), name, help_remedy(name));
+  if (!extras.empty())
+    fail(fmt::format("unexpected argument '{}'", extras.front()), place.verb, help_remedy(place));
 
-  for (const auto& given : given_globals) assign(given, name);
+  for (const auto& given : given_globals) assign(given, place);
   if (chosen != nullptr) {
-    for (const auto& given : chosen->given) assign(given, name);
+    for (const auto& given : chosen->given) assign(given, place);
   }
   return invocation;
+}
+
+}  // namespace
+
+Invocation parse_command_line(const std::vector<std::string>& words, const std::vector<Verb>& verbs,
+                              const Arguments& globals) {
+  return parse(words, "bn", verbs, globals);
+}
+
+void parse_arguments(const std::vector<std::string>& words, const std::string& program,
+                     const Arguments& arguments) {
+  parse(words, program, {}, arguments);
 }
 
 }  // namespace bn::tools

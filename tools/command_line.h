@@ -32,5 +32,8 @@ struct Invocation {
 /// Throws usage: unknown words (with the nearest known one), missing or repeated arguments, bad values.
 Invocation parse_command_line(const std::vector<std::string>& words, const std::vector<Verb>& verbs,
                               const Arguments& globals);
+/// The same for a program without verbs; messages call it `program`.
+void parse_arguments(const std::vector<std::string>& words, const std::string& program,
+                     const Arguments& arguments);
 
 }  // namespace bn::tools

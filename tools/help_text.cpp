@@ -13,8 +13,9 @@ constexpr std::size_t kExplanation = 26;
 
 constexpr std::string_view kExitCodes =
     "Exit codes\n"
-    "  0 ok, 1 usage, 2 input or output, 3 invalid input, 4 out of memory or over a limit,\n"
-    "  5 verification failed, 130 and 143 stopped by SIGINT and SIGTERM, 70 a defect in bn\n";
+    "  0 ok, 1 usage, 2 input or output, 3 invalid input, 4 out of memory or over a\n"
+    "  limit, 5 verification failed, 130 and 143 stopped by SIGINT and SIGTERM, 70 a\n"
+    "  defect in the program\n";
 
 /// `text` in lines of at most kColumns, each but the first indented. A line of the text that starts with
 /// a space is kept as it is.
@@ -76,10 +77,10 @@ std::string arguments_text(std::string_view title, const Arguments& arguments, b
   return text.empty() ? "" : fmt::format("{}\n{}\n", title, text);
 }
 
-std::string usage_line(const Verb& verb) {
-  std::string text = "bn " + verb.name;
+std::string usage_line(const Verb& verb, std::string text) {
   for (const auto& argument : verb.arguments.list()) {
-    if (!argument.required && argument.is_positional()) text += fmt::format(" [{}...]", argument.name);
+    if (!argument.required && argument.is_positional())
+      text += fmt::format(" [{}{}]", argument.name, argument.repeats ? "..." : "");
     if (!argument.required) continue;
     const std::string& flag = argument.short_name.empty() ? argument.name : argument.short_name;
     text += argument.is_positional() ? " " + argument.name + (argument.repeats ? "..." : "")
@@ -88,11 +89,12 @@ std::string usage_line(const Verb& verb) {
   return text + " [OPTIONS]";
 }
 
-/// What a verb's help says that no other's does; ends without an empty line.
-std::string own_help(const Verb& verb) {
-  std::string text =
-      examples_text(verb.examples) + wrapped(verb.details, 0) + "\n\nUsage: " + usage_line(verb) + "\n\n" +
-      arguments_text("Arguments", verb.arguments, true) + arguments_text("Options", verb.arguments, false);
+/// What a verb's help says that no other's does; ends without an empty line. `command` runs it: "bn bake".
+std::string own_help(const Verb& verb, const std::string& command) {
+  std::string text = examples_text(verb.examples) + wrapped(verb.details, 0) +
+                     "\n\nUsage: " + usage_line(verb, command) + "\n\n" +
+                     arguments_text("Arguments", verb.arguments, true) +
+                     arguments_text("Options", verb.arguments, false);
   std::vector<std::string> groups;
   for (const auto& argument : verb.arguments.list()) {
     const bool is_new = std::find(groups.begin(), groups.end(), argument.group) == groups.end();
@@ -136,13 +138,18 @@ std::string group_help(const std::string& group, const std::vector<Verb>& verbs)
 }
 
 std::string verb_help(const Verb& verb, const Arguments& globals) {
-  return own_help(verb) + "\n" + arguments_text("Options of every verb", globals, false) +
+  return own_help(verb, "bn " + verb.name) + "\n" + arguments_text("Options of every verb", globals, false) +
          std::string(kExitCodes);
+}
+
+std::string program_help(const Verb& program) {
+  return own_help(program, program.name) + "\n" + std::string(kExitCodes);
 }
 
 std::string manual(const std::vector<Verb>& verbs, const Arguments& globals) {
   std::string text = "## bn\n\n```\n" + overview_help(verbs, globals) + "```\n";
-  for (const auto& verb : verbs) text += fmt::format("\n## bn {}\n\n```\n{}```\n", verb.name, own_help(verb));
+  for (const auto& verb : verbs)
+    text += fmt::format("\n## bn {}\n\n```\n{}```\n", verb.name, own_help(verb, "bn " + verb.name));
   return text;
 }
 

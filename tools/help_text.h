@@ -15,6 +15,8 @@ std::string overview_help(const std::vector<Verb>& verbs, const Arguments& globa
 std::string group_help(const std::string& group, const std::vector<Verb>& verbs);
 /// bn bake --help
 std::string verb_help(const Verb& verb, const Arguments& globals);
+/// bn-inspector --help: of a program without verbs, whose arguments are those of `program`.
+std::string program_help(const Verb& program);
 /// bn help --all: everything above as Markdown, without repeating what all verbs share.
 std::string manual(const std::vector<Verb>& verbs, const Arguments& globals);
 

@@ -2,89 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <new>
-#include <system_error>
-
 #include "bn/error.h"
 #include "bn/version.h"
 #include "tools/command_line.h"
+#include "tools/failure.h"
 #include "tools/help_text.h"
 #include "tools/signals.h"
 #include "tools/verbs.h"
 
 namespace bn::tools {
 namespace {
-
-/// An exception that nobody meant to throw; EX_SOFTWARE of sysexits.h.
-constexpr auto kDefect = static_cast<ErrorCode>(70);
-
-/// The only place where a failure becomes a number.
-int exit_code_of(ErrorCode code, int signal) {
-  switch (code) {
-    case ErrorCode::usage:
-      return 1;
-    case ErrorCode::io:
-      return 2;
-    case ErrorCode::invalid_input:
-      return 3;
-    case ErrorCode::over_limit:
-      return 4;
-    case ErrorCode::verification_failed:
-      return 5;
-    case ErrorCode::cancelled:
-      return 128 + signal;
-  }
-  return static_cast<int>(kDefect);
-}
-
-/// The library's own errors are told as they are; all others are put into the same words. Call it
-/// inside a catch block.
-Error error_in_flight() {
-  try {
-    throw;
-  } catch (const Error& error) {
-    return error;
-  } catch (const std::filesystem::filesystem_error& error) {
-    return Error({.code = ErrorCode::io,
-                  .what = error.code().message(),
-                  .where = error.path1().string(),
-                  .limit = "",
-                  .remedy = "check the path and its permissions"});
-  } catch (const std::bad_alloc&) {
-    return Error({.code = ErrorCode::over_limit,
-                  .what = "out of memory",
-                  .where = "",
-                  .limit = "",
-                  .remedy = "ask for less, or use fewer --threads"});
-  } catch (const std::length_error&) {
-    return Error({.code = ErrorCode::over_limit,
-                  .what = "more elements than any memory holds",
-                  .where = "",
-                  .limit = "",
-                  .remedy = "ask for less"});
-  } catch (const std::system_error& error) {
-    const bool no_resources = error.code() == std::errc::resource_unavailable_try_again ||
-                              error.code() == std::errc::not_enough_memory;
-    return Error({.code = no_resources ? ErrorCode::over_limit : ErrorCode::io,
-                  .what = error.what(),
-                  .where = "",
-                  .limit = "",
-                  .remedy = no_resources ? "use fewer --threads" : ""});
-  } catch (const std::exception& defect) {
-    return Error({.code = kDefect,
-                  .what = fmt::format("a defect in bn: {}", defect.what()),
-                  .where = "",
-                  .limit = "",
-                  .remedy = "please report it with the command that shows it"});
-  } catch (...) {
-    return Error({.code = kDefect,
-                  .what = "a defect in bn: an exception of no known type",
-                  .where = "",
-                  .limit = "",
-                  .remedy = "please report it with the command that shows it"});
-  }
-}
 
 /// Returns the exit code of a run that does not fail.
 int run(const std::vector<std::string>& words, const StopOnSignal& signals, ProgressDisplay& progress) {
@@ -104,7 +31,7 @@ int run(const std::vector<std::string>& words, const StopOnSignal& signals, Prog
                  : has_group                ? group_help(invocation.group, verbs)
                                             : overview_help(verbs, global_arguments));
     // Without a verb nothing was done, which a script should notice.
-    return globals.help ? 0 : exit_code_of(ErrorCode::usage, 0);
+    return globals.help ? 0 : exit_code_of(ErrorCode::usage);
   }
   progress.set_style(globals.quiet ? ProgressStyle::none : globals.progress);
   Session session{.execution = {.threads = globals.threads,
@@ -124,7 +51,7 @@ int guarded_run(const std::vector<std::string>& words) {
   try {
     return run(words, signals, progress);
   } catch (...) {
-    const Error error = error_in_flight();
+    const Error error = error_in_flight("bn");
     const int exit_code = exit_code_of(error.code(), signals.signal());
     progress.error(error, exit_code);
     return exit_code;

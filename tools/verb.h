@@ -43,6 +43,12 @@ class Arguments {
     add(std::move(name), "", target, kind, std::move(help)).required = true;
     list_.back().placeholder = list_.back().name;
   }
+  /// As positional(), but it may be left out.
+  template <class T>
+  void optional_positional(std::string name, T& target, const ValueKind<T>& kind, std::string help) {
+    positional(std::move(name), target, kind, std::move(help));
+    list_.back().required = false;
+  }
   /// One or more arguments without a name; the last positional ones.
   template <class T>
   void positional_list(std::string name, std::vector<T>& target, const ValueKind<T>& kind, std::string help) {

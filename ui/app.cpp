@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <new>
 #include <utility>
 
 #include "bn/error.h"
-#include "bn/version.h"
+#include "tools/failure.h"
 #include "ui/keys.h"
 #include "ui/texture_file.h"
 #include "ui/widgets.h"
@@ -19,21 +17,8 @@ namespace {
 
 constexpr std::pair<Tab, const char*> kTabs[] = {
     {Tab::run, "Run"}, {Tab::compare, "Compare"}, {Tab::texture, "Texture"}, {Tab::bake, "Bake"}};
-constexpr std::size_t kMaxErrors = 50;
+constexpr std::size_t kMaxErrors = 50, kMostRecent = 8;
 constexpr double kMinScale = 0.5, kMaxScale = 4.0;
-
-constexpr std::pair<const char*, const char*> kHelp[] = {
-    {"Ctrl+1 … Ctrl+4", "Run, Compare, Texture, Bake"},
-    {"Ctrl+O", "open a texture, a folder of slices, a recipe"},
-    {"Ctrl+Z, Ctrl+Y", "undo and redo a change of settings"},
-    {"Ctrl+D", "dark or light"},
-    {"Ctrl++, Ctrl+-, Ctrl+0", "larger, smaller, normal size"},
-    {"F12", "save a picture of the window"},
-    {"Ctrl+Q", "quit"},
-    {"Wheel, drag, double click", "on a picture: zoom, pan, fit"},
-    {"F", "fit the picture"},
-    {"Space", "start or pause; play slices"},
-    {"Ctrl+click", "on a slider: type its value"}};
 
 }  // namespace
 
@@ -58,6 +43,11 @@ void App::parameters(Parameters& p) {
   int tab = static_cast<int>(wanted_tab_.value_or(tab_));
   p("tab", tab, 0, static_cast<int>(std::size(kTabs)) - 1);
   if (p.loading()) show(static_cast<Tab>(tab));
+  for (std::size_t i = 0; i < kMostRecent; ++i) {
+    std::filesystem::path path = i < recent_.size() ? recent_[i] : std::filesystem::path();
+    p(fmt::format("recent.{}", i).c_str(), path);
+    if (p.loading() && !path.empty() && i == recent_.size()) recent_.push_back(path);
+  }
   view_parameters(p);
 }
 
@@ -104,13 +94,30 @@ void App::close() {
   write_session(session_, settings);
 }
 
-bool App::busy() const { return run.busy() || compare.busy() || texture.busy() || bake.busy(); }
+bool App::busy() const {
+  if (wanted_tab_ && *wanted_tab_ != tab_) return true;
+  // What a view has begun goes on only while it is drawn.
+  switch (tab_) {
+    case Tab::run:
+      return run.busy();
+    case Tab::compare:
+      return compare.busy();
+    case Tab::texture:
+      return texture.busy();
+    case Tab::bake:
+      return bake.busy();
+  }
+  return false;
+}
 
 void App::open(const std::filesystem::path& path) {
   // From here on folders may change, so the path is made whole.
   std::error_code error;
   std::filesystem::path whole = std::filesystem::absolute(path, error);
   if (error) whole = path;
+  std::erase(recent_, whole);
+  recent_.insert(recent_.begin(), whole);
+  if (recent_.size() > kMostRecent) recent_.pop_back();
   if (whole.extension() == ".toml") {
     show(Tab::bake);
     bake.open(whole);
@@ -137,28 +144,11 @@ void App::ask_open() {
 
 void App::report(const Error& error) {
   if (error.code() == ErrorCode::cancelled) return;
-  errors_.emplace_back(error.what());
+  errors_.push_back(error);
   if (errors_.size() > kMaxErrors) errors_.pop_front();
 }
 
-void App::report_in_flight() {
-  const auto other = [&](ErrorCode code, std::string what, std::string remedy) {
-    report(Error(
-        {.code = code, .what = std::move(what), .where = "", .limit = "", .remedy = std::move(remedy)}));
-  };
-  try {
-    throw;
-  } catch (const Error& error) {
-    report(error);
-  } catch (const std::bad_alloc&) {
-    other(ErrorCode::over_limit, "out of memory", "ask for less, or close other programs");
-  } catch (const std::filesystem::filesystem_error& error) {
-    other(ErrorCode::io, error.path1().string() + ": " + error.code().message(),
-          "check the path and its permissions");
-  } catch (const std::exception& defect) {
-    other(ErrorCode::io, std::string("a defect in bn-inspector: ") + defect.what(), "please report it");
-  }
-}
+void App::report_in_flight() { report(tools::error_in_flight("bn-inspector")); }
 
 void App::frame() {
   const ImGuiViewport& viewport = *ImGui::GetMainViewport();
@@ -172,7 +162,7 @@ void App::frame() {
   draw_tabs();
   draw_status();
   chooser_.draw();
-  draw_help();
+  help_.draw();
   ImGui::End();
   if (!ImGui::IsAnyItemActive() && !texture.playing()) history_.note(undoable());
 }
@@ -190,7 +180,7 @@ void App::handle_shortcuts() {
   if (shortcut("ctrl+minus")) scale = std::max(kMinScale, scale / 1.25);
   if (shortcut("ctrl+0")) scale = 1.0;
   if (shortcut("f12")) ask_screenshot();
-  if (shortcut("f1")) help_wanted_ = true;
+  if (shortcut("f1")) help_.open(Help::Page::keys);
   if (shortcut("ctrl+q")) quit = true;
 }
 
@@ -199,10 +189,20 @@ void App::ask_screenshot() {
       [this](const std::filesystem::path& path) { screenshot_path = path; });
 }
 
+void App::draw_recent() {
+  if (!ImGui::BeginMenu("Open again", !recent_.empty()))
+    return items::record("Open again", {}, !recent_.empty());
+  for (const std::filesystem::path& path : std::vector(recent_)) {
+    if (menu_item(path.string().c_str())) take(path);
+  }
+  ImGui::EndMenu();
+}
+
 void App::draw_menu() {
   if (!ImGui::BeginMenuBar()) return;
   if (begin_menu("File")) {
     if (menu_item("Open …", "Ctrl+O")) ask_open();
+    draw_recent();
     if (menu_item("Save a picture of the window …", "F12")) ask_screenshot();
     ImGui::Separator();
     if (menu_item("Quit", "Ctrl+Q")) quit = true;
@@ -214,6 +214,12 @@ void App::draw_menu() {
     ImGui::EndMenu();
   }
   if (begin_menu("View")) {
+    for (int i = 0; i < static_cast<int>(std::size(kTabs)); ++i) {
+      const auto& [tab, name] = kTabs[i];
+      if (ImGui::MenuItem(name, fmt::format("Ctrl+{}", i + 1).c_str(), tab_ == tab)) show(tab);
+      items::record(fmt::format("View: {}", name), tab_ == tab ? "on" : "off");
+    }
+    ImGui::Separator();
     if (menu_item("Dark", "Ctrl+D", dark)) dark = !dark;
     ImGui::Separator();
     if (menu_item("Larger", "Ctrl++")) scale = std::min(kMaxScale, scale * 1.25);
@@ -222,7 +228,8 @@ void App::draw_menu() {
     ImGui::EndMenu();
   }
   if (begin_menu("Help")) {
-    if (menu_item("Keys", "F1")) help_wanted_ = true;
+    if (menu_item("Keys", "F1")) help_.open(Help::Page::keys);
+    if (menu_item("About and documentation")) help_.open(Help::Page::about);
     ImGui::EndMenu();
   }
   ImGui::EndMenuBar();
@@ -276,9 +283,9 @@ void App::draw_errors(float height) {
   }
   for (auto error = errors_.rbegin(); error != errors_.rend(); ++error) {
     ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(error->c_str());
+    ImGui::TextUnformatted(error->what());
     ImGui::PopTextWrapPos();
-    if (error == errors_.rbegin()) items::record("Error", *error);
+    if (error == errors_.rbegin()) items::record("Error", error->what());
   }
   end_panel();
 }
@@ -287,19 +294,6 @@ void App::draw_status() {
   if (!errors_.empty()) draw_errors(em(5.5f));
   note(status_);
   items::record("Status", status_);
-}
-
-void App::draw_help() {
-  if (std::exchange(help_wanted_, false)) ImGui::OpenPopup("help");
-  ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSize({std::min(em(40), ImGui::GetMainViewport()->Size.x * 0.9f), 0});
-  if (!ImGui::BeginPopup("help")) return;
-  heading("Keys");
-  set_label_width(15);
-  for (const auto& [keys, what] : kHelp) value(keys, what);
-  set_label_width(8);
-  note(fmt::format("bn inspector {}", kVersion));
-  ImGui::EndPopup();
 }
 
 }  // namespace bn::ui

@@ -17,6 +17,7 @@
 #include "ui/bake_view.h"
 #include "ui/compare_view.h"
 #include "ui/file_chooser.h"
+#include "ui/help.h"
 #include "ui/parameters.h"
 #include "ui/run_view.h"
 #include "ui/texture_view.h"
@@ -66,7 +67,7 @@ class App {
   bool quit = false;
   std::filesystem::path screenshot_path;  ///< set: the main loop writes the frame there, and clears it
   Tab tab() const { return tab_; }
-  const std::deque<std::string>& errors() const { return errors_; }
+  const std::deque<Error>& errors() const { return errors_; }
 
  private:
   void parameters(Parameters& p);
@@ -78,7 +79,7 @@ class App {
   void draw_tabs();
   void draw_errors(float height);
   void draw_status();
-  void draw_help();
+  void draw_recent();
   void ask_screenshot();
   float foot_height() const;
   void handle_shortcuts();
@@ -90,8 +91,9 @@ class App {
   Tab tab_ = Tab::run;
   std::optional<Tab> wanted_tab_ = Tab::run;  ///< until the tab bar shows it
   FileChooser chooser_;
-  bool help_wanted_ = false;
-  std::deque<std::string> errors_;
+  Help help_;
+  std::vector<std::filesystem::path> recent_;  ///< what was opened, the last first
+  std::deque<Error> errors_;
   std::string status_ = "Drop a texture, a folder of slices or a recipe anywhere.";
 };
 

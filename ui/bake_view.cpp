@@ -9,13 +9,24 @@
 
 #include "bn/error.h"
 #include "ui/app.h"
+#include "ui/recipe_text.h"
+#include "ui/texture_file.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
 namespace {
 
 std::string seconds_text(double seconds) {
-  return seconds < 120.0 ? fmt::format("{:.2f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
+  return seconds < 10.0    ? fmt::format("{:.2f} s", seconds)
+         : seconds < 120.0 ? fmt::format("{:.0f} s", seconds)
+                           : fmt::format("{:.0f} min", seconds / 60.0);
+}
+
+/// An estimate, with no more digits than it deserves.
+std::string about_text(double seconds) {
+  return seconds < 0.1    ? "< 0.1 s"
+         : seconds < 10.0 ? fmt::format("{:.1f} s", seconds)
+                          : seconds_text(seconds);
 }
 
 std::string energy_text(const std::vector<TileRecord>& tiles) {
@@ -95,7 +106,10 @@ void BakeView::update(App& app) {
   const bool wanted = planned_path_ != recipe_path_ || planned_out_ != out_dir_;
   if (wanted && !recipe_path_.empty() && !baking_.running() && !ImGui::IsAnyItemActive()) plan();
   try {
-    if (auto planned = planning_.poll()) planned_ = std::move(*planned);
+    if (auto planned = planning_.poll()) {
+      planned_ = std::move(*planned);
+      read_sheet();
+    }
   } catch (...) {
     planned_.reset();
     app.report_in_flight();
@@ -103,6 +117,7 @@ void BakeView::update(App& app) {
   try {
     if (auto result = baking_.poll()) {
       app.say(fmt::format("Baked into {} in {:.2f} s", out_dir_, result->seconds));
+      read_sheet();
     }
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) {
@@ -115,14 +130,41 @@ void BakeView::update(App& app) {
   }
 }
 
+/// In the background, where it is there.
+void BakeView::read_sheet() {
+  reading_.stop();
+  const auto path = std::filesystem::path(planned_out_) / planned_->recipe.contact_sheet;
+  std::error_code error;
+  if (planned_->recipe.contact_sheet.empty() || !std::filesystem::is_regular_file(path, error))
+    return sheet_.clear();
+  reading_.start([path](const Execution& execution) {
+    return std::make_shared<const Picture>(picture_of(read_texture(path, execution), {}));
+  });
+}
+
+void BakeView::draw_sheet() {
+  try {
+    if (auto sheet = reading_.poll()) sheet_.set(std::move(*sheet));
+  } catch (const Error&) {
+    sheet_.clear();  // a file of that name that is no picture; the plan says what will become of it
+  }
+  if (planned_->recipe.contact_sheet.empty()) return;
+  heading("Contact sheet");
+  if (sheet_.empty())
+    return note(reading_.running() ? "Reading …" : "It stands here once the recipe is baked.");
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  sheet_.draw("Contact sheet", sheet_link_, {room.x, std::max(em(16), room.y)});
+}
+
 void BakeView::draw(App& app) {
   update(app);
   const float controls = std::min(em(24), ImGui::GetContentRegionAvail().x * 0.42f);
   begin_panel("bake", {recipe_path_.empty() ? 0.0f : controls, 0});
   if (recipe_path_.empty()) {
-    ImGui::SetCursorPosY(ImGui::GetContentRegionAvail().y * 0.4f);
-    note("Drop a recipe (.toml) here.");
+    begin_centred("what to do", "No recipe yet");
+    note("Drop a recipe (.toml) here: it names masks and retarget tiles, which are made into one folder.");
     if (button("Open a recipe …")) app.ask_open();
+    end_centred();
     end_panel();
     return;
   }
@@ -136,6 +178,7 @@ void BakeView::draw(App& app) {
   const bool wide = room.x > em(48);
   begin_panel("jobs", wide ? ImVec2(room.x * 0.62f, 0) : ImVec2(0, room.y * 0.6f));
   if (planned_) draw_jobs(app);
+  if (planned_) draw_sheet();
   if (!planned_) note(planning_.running() ? "Planning …" : "There is no plan.");
   end_panel();
   if (wide) ImGui::SameLine();
@@ -175,7 +218,7 @@ void BakeView::draw_controls(App& app) {
   value("Jobs", stand > 0 ? fmt::format("{}, of which {} are up to date", plan.jobs.size(), stand)
                           : fmt::format("{}", plan.jobs.size()));
   const bool nothing = stand == static_cast<std::ptrdiff_t>(plan.jobs.size());
-  value("Time", nothing ? "nothing to make" : "about " + seconds_text(plan.estimated_seconds),
+  value("Time", nothing ? "nothing to make" : "about " + about_text(plan.estimated_seconds),
         "Of what is to be made, on one core");
   value("Memory",
         fmt::format("about {:.0f} MiB", static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
@@ -224,7 +267,7 @@ void BakeView::draw_job(App& app, int index, bool narrow) {
   note(job.kind);
   if (!narrow) ImGui::TableNextColumn();
   ImGui::TextUnformatted(record && !record->skipped ? seconds_text(record->seconds).c_str()
-                                                    : ("~ " + seconds_text(job.estimated_seconds)).c_str());
+                                                    : ("~ " + about_text(job.estimated_seconds)).c_str());
   if (!narrow) ImGui::TableNextColumn();
   if (record) ImGui::TextWrapped("%s", energy_text(record->tiles).c_str());
   ImGui::TableNextColumn();
@@ -245,9 +288,7 @@ void BakeView::draw_job(App& app, int index, bool narrow) {
 
 void BakeView::draw_recipe() {
   heading("Text");
-  ImGui::PushFont(mono_font());
-  note(planned_->recipe.text);
-  ImGui::PopFont();
+  show_recipe(planned_->recipe.text);
 }
 
 }  // namespace bn::ui

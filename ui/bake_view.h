@@ -8,6 +8,7 @@
 #include <string>
 
 #include "bn/bake.h"
+#include "ui/image_view.h"
 #include "ui/task.h"
 
 namespace bn::ui {
@@ -21,7 +22,9 @@ class BakeView {
   void open(const std::filesystem::path& recipe);
   void draw(App& app);
   void parameters(Parameters& p);
-  bool busy() const { return planning_.running() || baking_.running(); }
+  bool busy() const {
+    return planning_.running() || baking_.running() || reading_.running() || sheet_.busy();
+  }
 
  private:
   struct Planned {
@@ -39,6 +42,8 @@ class BakeView {
   /// `narrow`: in three columns, else in five.
   void draw_job(App& app, int index, bool narrow);
   void draw_recipe();
+  void read_sheet();
+  void draw_sheet();
 
   // What the user has set.
   std::filesystem::path recipe_path_;
@@ -52,6 +57,9 @@ class BakeView {
   std::shared_ptr<Watch> watch_;
   Task<Planned> planning_;
   Task<BakeResult> baking_;
+  ImageView sheet_;
+  ViewLink sheet_link_ = {.nearest = false};
+  Task<std::shared_ptr<const Picture>> reading_;
 };
 
 }  // namespace bn::ui

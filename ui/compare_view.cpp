@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "ui/app.h"
 #include "ui/compare_export.h"
@@ -15,19 +16,6 @@ namespace bn::ui {
 namespace {
 
 constexpr std::size_t kMostKept = 16;
-
-/// The figures of a run as a table has them: the best once it has ended, else where it stands.
-struct Figures {
-  std::int64_t energy = 0;
-  double seconds = 0.0;
-  std::int64_t proposals = 0;
-};
-Figures figures_of(const RunEntry& entry) {
-  const Standing standing = entry.run->standing();
-  const auto result = entry.run->has_ended() ? entry.run->result() : nullptr;
-  return {result ? result->tile.energy : standing.state.energy, standing.state.seconds,
-          standing.state.proposals};
-}
 
 /// Columns left of `share` from a, the others from b.
 Picture split(const Picture& a, const Picture& b, double share) {
@@ -50,11 +38,6 @@ Picture split(const Picture& a, const Picture& b, double share) {
 
 }  // namespace
 
-ImU32 CompareView::Kept::colour() const {
-  const auto& series = palette().series;
-  return series[static_cast<std::size_t>(entry->number - 1) % std::size(series)];
-}
-
 void CompareView::parameters(Parameters& p) {
   p("compare.what", what_, 0, 2);
   p("compare.mode", mode_, 0, 2);
@@ -72,7 +55,14 @@ bool CompareView::busy() const {
 void CompareView::add(std::shared_ptr<RunEntry> entry) {
   (find(a_.number) == nullptr ? a_ : b_) = {
       .number = entry->number, .placement = {}, .what = -1, .picture = {}};
-  kept_.push_back({std::move(entry)});
+  const auto is_taken = [&](int repeat) {
+    return std::any_of(kept_.begin(), kept_.end(), [&](const Kept& k) {
+      return k.repeat == repeat && k.entry->settings.schedule == entry->settings.schedule;
+    });
+  };
+  int repeat = 0;
+  while (is_taken(repeat)) ++repeat;
+  kept_.push_back({.entry = std::move(entry), .repeat = repeat});
   if (kept_.size() <= kMostKept) return;
   const auto oldest =
       std::find_if(kept_.begin(), kept_.end(), [](const Kept& k) { return k.entry->run->has_ended(); });
@@ -111,7 +101,7 @@ void CompareView::start_export(App& app, const std::filesystem::path& folder) {
   for (const Kept& kept : kept_) {
     if (!kept.shown) continue;
     const RunEntry& entry = *kept.entry;
-    const Figures figures = figures_of(entry);
+    const RunStanding figures = standing_of(entry);
     const RetargetTile* optimum = entry.optimum ? entry.optimum->tile() : nullptr;
     const std::int64_t bound = optimum != nullptr ? optimum->energy : 0;
     runs.push_back({.name = fmt::format("{}-{}", entry.number, entry.settings.schedule_name()),
@@ -134,17 +124,20 @@ void CompareView::draw(App& app) {
   update(app);
   if (kept_.empty()) {
     begin_panel("none");
-    ImGui::SetCursorPosY(ImGui::GetContentRegionAvail().y * 0.4f);
-    note("Every run that you start is kept here, to be held against the others.");
-    if (button("Go to Run")) app.show(Tab::run);
+    begin_centred("what to do", "Nothing to compare yet");
+    note(
+        "Every run that you start is kept here. Start one in the Run view, change its schedule, its budget "
+        "or "
+        "its seed, and start again: their curves share a plot, their pictures stand side by side.");
+    if (main_button("Go to Run")) app.show(Tab::run);
+    end_centred();
     end_panel();
     return;
   }
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float rows = static_cast<float>(std::min<std::size_t>(kept_.size(), 6)) + 1.0f;
   const float table = rows * (ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
-                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y +
-                      ImGui::GetStyle().ScrollbarSize;
+                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
   begin_panel("runs", {0, std::min(table, room.y * 0.45f)});
   draw_table();
   const bool any = std::any_of(kept_.begin(), kept_.end(), [](const Kept& k) { return k.shown; });
@@ -156,7 +149,7 @@ void CompareView::draw(App& app) {
   end_panel();
   const ImVec2 rest = ImGui::GetContentRegionAvail();
   const bool wide = rest.x > em(48);
-  const float high = wide ? std::max(em(24), rest.y) : em(32);
+  const float high = wide ? std::max(em(34), rest.y) : em(36);
   begin_panel("curves", {wide ? rest.x * 0.5f : 0.0f, high});
   draw_plots(ImGui::GetContentRegionAvail());
   end_panel();
@@ -165,63 +158,6 @@ void CompareView::draw(App& app) {
   draw_pictures(ImGui::GetContentRegionAvail());
   end_panel();
   set_label_width(8);
-}
-
-void CompareView::draw_table() {
-  constexpr auto kFlags = ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_ScrollX |
-                          ImGuiTableFlags_ScrollY;
-  // ImGui's scrolling tables trip over a child window that is nowhere in sight.
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  if (!ImGui::IsRectVisible({room.x, room.y - ImGui::GetFrameHeightWithSpacing()})) return;
-  if (!ImGui::BeginTable("runs", 11, kFlags, {0, -ImGui::GetFrameHeightWithSpacing()})) return;
-  ImGui::TableSetupScrollFreeze(1, 1);
-  for (const char* name :
-       {"Run", "A", "B", "Image", "Proposals", "Seed", "Energy", "Optimum", "Gap", "Time", ""}) {
-    ImGui::TableSetupColumn(name);
-  }
-  ImGui::TableHeadersRow();
-  removed_ = 0;
-  for (Kept& kept : kept_) draw_row(kept);
-  ImGui::EndTable();
-  if (removed_ != 0) remove(removed_);
-}
-
-void CompareView::draw_row(Kept& kept) {
-  const RunEntry& entry = *kept.entry;
-  const Figures figures = figures_of(entry);
-  const auto gap = gap_percent(entry, figures.energy);
-  const RetargetTile* optimum = entry.optimum ? entry.optimum->tile() : nullptr;
-  ImGui::PushID(entry.number);
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::PushStyleColor(ImGuiCol_CheckMark, kept.colour());
-  checkbox(entry.name().c_str(), kept.shown, "Whether its curves are shown");
-  ImGui::PopStyleColor();
-  const auto pick = [&](const char* name, Side& side) {
-    ImGui::TableNextColumn();
-    if (ImGui::RadioButton(name, side.number == entry.number))
-      side = {.number = entry.number, .placement = {}, .what = -1, .picture = {}};
-    items::record(fmt::format("{} {}", name + 2, entry.number), side.number == entry.number ? "on" : "off");
-  };
-  pick("##A", a_);
-  pick("##B", b_);
-  const auto cell = [&](const char* name, const std::string& text) {
-    ImGui::TableNextColumn();
-    ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(text.c_str());
-    items::record(fmt::format("{} {}", name, entry.number), text);
-  };
-  cell("Image", entry.source->name);
-  cell("Proposals", short_number(static_cast<double>(figures.proposals)));
-  cell("Seed", fmt::format("{}", entry.settings.seed));
-  cell("Energy", fmt::format("{}", figures.energy));
-  cell("Optimum", optimum != nullptr ? fmt::format("{}", optimum->energy) : "–");
-  cell("Gap", gap ? fmt::format("{:.2f} %", *gap) : "–");
-  cell("Time", fmt::format("{:.2f} s", figures.seconds));
-  ImGui::TableNextColumn();
-  if (ImGui::SmallButton("Remove")) removed_ = entry.number;
-  items::record(fmt::format("Remove {}", entry.number));
-  ImGui::PopID();
 }
 
 void CompareView::draw_plots(ImVec2 size) {
@@ -234,11 +170,15 @@ void CompareView::draw_plots(ImVec2 size) {
   static constexpr const char* kOver[] = {"proposals", "seconds"};
   if (choice("Over", kOver, over_, "What the curves are drawn over")) plot_link_ = {};
   const float gap = ImGui::GetStyle().ItemSpacing.y, height = size.y - (ImGui::GetCursorPosY() - before);
-  const float first = std::max(em(9), height * 0.46f),
-              second = std::max(em(7), (height - first) * 0.5f - gap);
+  const float first = std::max(em(10), height * 0.38f),
+              second = std::max(em(10), (height - first - 2 * gap) * 0.5f);
   const Over over = over_ == 0 ? Over::proposals : Over::seconds;
-  energy_plot_.draw("Energies", energy_figure(drawn, over), {size.x, first}, plot_link_);
-  temperature_plot_.draw("Temperatures", temperature_figure(drawn, over), {size.x, second}, plot_link_);
+  Figure energy = energy_figure(drawn, over), temperature = temperature_figure(drawn, over);
+  // The plots stand below each other on one axis, which the last one names.
+  energy.x.name.clear();
+  temperature.x.name.clear();
+  energy_plot_.draw("Energies", energy, {size.x, first}, plot_link_);
+  temperature_plot_.draw("Temperatures", temperature, {size.x, second}, plot_link_);
   acceptance_plot_.draw("Acceptances", acceptance_figure(drawn, over), {size.x, second}, plot_link_);
 }
 
@@ -258,9 +198,31 @@ bool CompareView::refresh(Side& side) {
   const RetargetOptions& options = entry->run->setup().problem.retarget;
   const Grid<Offset>& move = side.placement->move;
   side.picture = what_ == 0   ? permuted_picture(levels, move)
-                 : what_ == 1 ? difference_picture(levels, move, options.step)
+                 : what_ == 1 ? difference_picture(levels, move, options.step, 8)
                               : offset_picture(move, options);
   return true;
+}
+
+/// Any two of the runs; the columns A and B of the table do the same.
+void CompareView::choose_pair(float width) {
+  std::vector<std::string> names;
+  for (const Kept& kept : kept_) names.push_back(kept.entry->name());
+  if (!ImGui::BeginTable("pair", 2, ImGuiTableFlags_SizingStretchSame, {width, 0})) return;
+  set_label_width(1.2f);
+  for (const auto& [label, side] : {std::pair<const char*, Side*>{"A", &a_}, {"B", &b_}}) {
+    ImGui::TableNextColumn();
+    const auto chosen = std::find_if(kept_.begin(), kept_.end(),
+                                     [&](const Kept& kept) { return kept.entry->number == side->number; });
+    int index = chosen == kept_.end() ? -1 : static_cast<int>(chosen - kept_.begin());
+    if (combo(label, names, index, "The run on this side")) {
+      *side = {.number = kept_[static_cast<std::size_t>(index)].entry->number,
+               .placement = {},
+               .what = -1,
+               .picture = {}};
+    }
+  }
+  set_label_width(0);
+  ImGui::EndTable();
 }
 
 void CompareView::draw_pictures(ImVec2 size) {
@@ -268,6 +230,11 @@ void CompareView::draw_pictures(ImVec2 size) {
   set_label_width(0);
   static constexpr const char* kWhat[] = {"permuted", "difference", "offsets"};
   choice("##what", kWhat, what_);
+  const RunEntry* first = find(a_.number);
+  if (what_ == 2 && first != nullptr) {
+    ImGui::SameLine();
+    legend_.draw(ImGui::GetFrameHeight(), longest_move(first->run->setup().problem.retarget));
+  }
   static constexpr const char* kModes[] = {"A | B", "Flip", "Split"};
   flow(choice_width("", kModes), em(1.0f));
   if (choice("##mode", kModes, mode_,
@@ -298,9 +265,10 @@ void CompareView::draw_pictures(ImVec2 size) {
       view_a_.set(front.picture.size.area() > 0 ? front.picture : a_.picture);
   }
   compose_ = false;
+  choose_pair(size.x);
   const auto title = [&](const char* letter, const Side& side) {
     const RunEntry* entry = find(side.number);
-    return entry == nullptr ? fmt::format("{}: choose a run above", letter)
+    return entry == nullptr ? fmt::format("{}: choose a run", letter)
                             : fmt::format("{}: {}, energy {}", letter, entry->name(),
                                           side.placement ? side.placement->energy : 0);
   };

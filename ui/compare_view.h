@@ -8,6 +8,7 @@
 
 #include "ui/run_figures.h"
 #include "ui/run_pictures.h"
+#include "ui/theme.h"
 
 namespace bn::ui {
 
@@ -28,8 +29,9 @@ class CompareView {
  private:
   struct Kept {
     std::shared_ptr<RunEntry> entry;
+    int repeat = 0;  ///< the least number that no other run of its schedule has here
     bool shown = true;
-    ImU32 colour() const;
+    ImU32 colour() const { return schedule_colour(entry->settings.schedule_name(), repeat); }
   };
   /// A picture of one side and what it was made from.
   struct Side {
@@ -43,8 +45,11 @@ class CompareView {
   const RunEntry* find(int number) const;
   void remove(int number);
   void draw_table();
+  /// Of all runs of its problem, of which there are others, none has less energy.
+  bool is_best(const RunEntry& entry) const;
   void draw_row(Kept& kept);
   void draw_plots(ImVec2 size);
+  void choose_pair(float width);
   void draw_pictures(ImVec2 size);
   bool refresh(Side& side);
   void start_export(App& app, const std::filesystem::path& folder);
@@ -59,6 +64,7 @@ class CompareView {
   double split_ = 0.5;
   Side a_, b_;
   ImageView view_a_, view_b_;
+  MoveLegend legend_;
   ViewLink link_;
   bool compose_ = true;  ///< the picture of flip or split must be made again
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bn/spectrum.h"
+#include "ui/keys.h"
 #include "ui/parameters.h"
 #include "ui/widgets.h"
 
@@ -28,12 +29,21 @@ std::string number(float value) {
 void ViewLink::parameters(Parameters& p, const std::string& view) {
   p((view + ".nearest").c_str(), nearest);
   p((view + ".tiled").c_str(), tiled);
+  p((view + ".hex").c_str(), hex);
+}
+
+void ViewLink::go_to(Offset texel, Extent size) {
+  constexpr double kReadable = 48.0;
+  pinned = texel;
+  zoom = std::max(zoom, kReadable);
+  centre_x = (texel.x + 0.5) / size.width;
+  centre_y = (texel.y + 0.5) / size.height;
 }
 
 void draw_link_controls(ViewLink& link) {
-  if (button("Fit", true, "The whole picture (F, or a double click on it)")) link.fit();
+  if (button("Fit", true, "The whole picture (F, or a double click on it)") || shortcut("f")) link.fit();
   ImGui::SameLine();
-  if (button("1:1", true, "One texel to a pixel of the screen (1)")) link.zoom = 1.0;
+  if (button("1:1", true, "One texel to a pixel of the screen (1)") || shortcut("1")) link.zoom = 1.0;
   ImGui::SameLine();
   bool linear = !link.nearest;
   if (checkbox("Linear", linear, "Enlarge smoothly; off: every texel is a square")) link.nearest = !linear;
@@ -82,10 +92,11 @@ ImageView::Prepared ImageView::prepare(const Picture& picture, float low, float 
         continue;
       }
       const float* v = &picture.values[from * static_cast<std::size_t>(channels)];
-      const std::uint32_t r = level(v[0]);
-      texels[to] = channels == 1   ? IM_COL32(r, r, r, 255)
-                   : channels == 2 ? IM_COL32(r, level(v[1]), 0, 255)
-                                   : IM_COL32(r, level(v[1]), level(v[2]), 255);
+      const auto part = [&](int c) {
+        return c < channels && (picture.visible >> c & 1) != 0 ? level(v[c]) : 0u;
+      };
+      const std::uint32_t grey = level(v[0]);
+      texels[to] = channels == 1 ? IM_COL32(grey, grey, grey, 255) : IM_COL32(part(0), part(1), part(2), 255);
     }
   }
   Prepared prepared{.levels = with_halvings(shown, std::move(texels)), .histogram = {}};
@@ -127,16 +138,71 @@ void ImageView::prepare_texels() {
   texture_.advance();
 }
 
-std::string ImageView::describe(int x, int y) const {
+std::string ImageView::value_text(float value, bool hex) const {
+  if (!hex || picture_->hex_digits == 0) return number(value);
+  return fmt::format("{:0{}X}", static_cast<unsigned>(value), picture_->hex_digits);
+}
+
+std::string ImageView::describe(int x, int y, bool hex) const {
   if (picture_->describe) return picture_->describe(x, y);
   std::string text;
   const std::size_t at = (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_->size.width) +
                           static_cast<std::size_t>(x)) *
                          static_cast<std::size_t>(picture_->channels);
   for (int c = 0; c < picture_->channels && at < picture_->values.size(); ++c) {
-    text += (c > 0 ? ", " : "") + number(picture_->values[at + static_cast<std::size_t>(c)]);
+    text += (c > 0 ? ", " : "") + value_text(picture_->values[at + static_cast<std::size_t>(c)], hex);
   }
   return text;
+}
+
+/// The line below the picture: of the texel under the mouse, else of the pinned one, else of all.
+std::string ImageView::below(const ViewLink& link, float width) const {
+  const auto texel = [&](Offset at) {
+    // What describes itself is not addressed by texels: a spectrum.
+    const std::string value = describe(at.x, at.y, link.hex);
+    return picture_->describe ? value : fmt::format("({}, {})  {}", at.x, at.y, value);
+  };
+  const auto is_here = [&](const std::optional<Offset>& at) {
+    return at && at->x < picture_->size.width && at->y < picture_->size.height;
+  };
+  if (is_here(link.cursor)) return texel(*link.cursor);
+  if (failed_) return "not enough memory to show it";
+  if (is_here(link.pinned)) return texel(*link.pinned) + ", pinned";
+  const std::string size = fmt::format("{} × {}", picture_->size.width, picture_->size.height);
+  if (!has_range() || picture_->describe) return size;
+  const std::string range = fmt::format("{} … {}", number(low_), number(high_)), both = size + ", " + range;
+  return ImGui::CalcTextSize(both.c_str()).x <= width ? both : range;
+}
+
+float ImageView::widest_value(bool hex) const {
+  // Of numbers that are not whole any may be as long as this.
+  const bool whole = picture_->low == std::floor(picture_->low) &&
+                     picture_->high == std::floor(picture_->high) && picture_->high > 1.0f;
+  const std::string longest = whole ? value_text(picture_->high, hex) : "0.12345";
+  return ImGui::CalcTextSize(longest.c_str()).x;
+}
+
+void ImageView::draw_values(ImDrawList& list, int x, int y, ImVec2 corner, float size, bool hex) const {
+  const auto channels = static_cast<std::size_t>(picture_->channels);
+  const float* v =
+      &picture_->values[(static_cast<std::size_t>(y) * static_cast<std::size_t>(picture_->size.width) +
+                         static_cast<std::size_t>(x)) *
+                        channels];
+  const float line = ImGui::GetTextLineHeight();
+  const float span = high_ > low_ ? high_ - low_ : 1.0f;
+  const auto light = [&](std::size_t c) {
+    const bool drawn = channels == 1 || (c < 3 && (picture_->visible >> c & 1) != 0);
+    return drawn ? std::clamp((v[c] - low_) / span, 0.0f, 1.0f) : 0.0f;
+  };
+  float grey = light(0);
+  if (channels > 1) grey = 0.3f * light(0) + 0.6f * light(1) + (channels > 2 ? 0.1f * light(2) : 0.0f);
+  const ImU32 ink = grey > 0.5f ? IM_COL32_BLACK : IM_COL32_WHITE;
+  for (std::size_t c = 0; c < channels; ++c) {
+    const std::string text = value_text(v[c], hex);
+    const float top = 0.5f * (size - line * static_cast<float>(channels)) + line * static_cast<float>(c);
+    list.AddText({corner.x + 0.5f * (size - ImGui::CalcTextSize(text.c_str()).x), corner.y + top}, ink,
+                 text.c_str());
+  }
 }
 
 void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
@@ -152,7 +218,7 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
   const ImVec2 far_corner{corner.x + area.x, corner.y + area.y};
   list.AddRectFilled(corner, far_corner, palette().background, ImGui::GetStyle().FrameRounding);
 
-  std::string below;
+  std::string text;
   if (!empty()) {
     prepare_texels();
     // Large pictures come over several frames; a script waits for the whole one.
@@ -197,7 +263,7 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
                     {static_cast<float>(first), static_cast<float>(first)},
                     {static_cast<float>(last), static_cast<float>(last)});
     }
-    if (picture_->overlay && zoom >= kOverlayZoom) {
+    const auto each_in_sight = [&](auto visit) {
       const auto [left, top] = texel_at(corner);
       const auto [right, bottom] = texel_at(far_corner);
       const auto limit = [&](double v, double side) {
@@ -205,11 +271,20 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
       };
       for (double y = limit(top, h); y <= limit(bottom, h); ++y) {
         for (double x = limit(left, w); x <= limit(right, w); ++x) {
-          picture_->overlay(list, wrap(static_cast<std::int64_t>(x), picture_->size.width),
-                            wrap(static_cast<std::int64_t>(y), picture_->size.height), screen(x, y),
-                            static_cast<float>(zoom));
+          visit(wrap(static_cast<std::int64_t>(x), picture_->size.width),
+                wrap(static_cast<std::int64_t>(y), picture_->size.height), screen(x, y));
         }
       }
+    };
+    const float texel = static_cast<float>(zoom);
+    const bool has_numbers = has_range() && !picture_->describe;
+    const bool fits = texel > ImGui::GetTextLineHeight() * static_cast<float>(picture_->channels) &&
+                      texel > widest_value(link.hex) + em(0.3f);
+    if (picture_->overlay && zoom >= kOverlayZoom) {
+      each_in_sight([&](int x, int y, ImVec2 at) { picture_->overlay(list, x, y, at, texel); });
+    } else if (has_numbers && fits) {
+      each_in_sight([&](int x, int y, ImVec2 at) { draw_values(list, x, y, at, texel, link.hex); });
+      items::record(fmt::format("{} values", name), link.hex ? "hexadecimal" : "decimal");
     }
     if (hovered) {
       const auto [x, y] = texel_at(io.MousePos);
@@ -220,26 +295,53 @@ void ImageView::draw(const char* name, ViewLink& link, ImVec2 size) {
                                        wrap(static_cast<std::int64_t>(std::floor(y)), picture_->size.height)})
               : std::nullopt;
     }
-    const auto cursor = link.cursor;
-    if (cursor && cursor->x < picture_->size.width && cursor->y < picture_->size.height) {
-      if (zoom >= 3) {
-        list.AddRect(screen(cursor->x, cursor->y), screen(cursor->x + 1, cursor->y + 1), palette().accent, 0,
-                     0, 2.0f);
-      }
-      below = fmt::format("({}, {})  {}", cursor->x, cursor->y, describe(cursor->x, cursor->y));
-    } else if (failed_) {
-      below = "not enough memory to show it";
-    } else {
-      below = fmt::format("{} × {}", picture_->size.width, picture_->size.height);
-    }
+    const auto frame = [&](const std::optional<Offset>& at, ImU32 colour) {
+      if (!at || zoom < 3.0) return;
+      list.AddRect(screen(at->x, at->y), screen(at->x + 1, at->y + 1), colour, 0, 0, 2.0f);
+    };
+    frame(link.pinned, palette().warn);
+    frame(link.cursor, palette().accent);
+    text = below(link, area.x);
     list.PopClipRect();
   }
   list.AddRect(corner, far_corner, palette().line, ImGui::GetStyle().FrameRounding);
-  ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
-  ImGui::TextUnformatted(below.c_str());
-  if (hovered) items::record("Pixel", below);
-  ImGui::PopStyleColor();
+  // No wider than the picture, whatever it says.
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({area.x, ImGui::GetTextLineHeight()});
+  const ImVec4 clip{at.x, at.y, at.x + area.x, at.y + line};
+  list.AddText(nullptr, 0.0f, at, palette().dim_text, text.c_str(), nullptr, 0.0f, &clip);
+  if (hovered || link.pinned) items::record("Pixel", text);
+  // Where there is no room for all of it, it stands at the mouse.
+  if (hovered && ImGui::CalcTextSize(text.c_str()).x > area.x) ImGui::SetTooltip("%s", text.c_str());
   ImGui::PopID();
+}
+
+void ImageView::draw_range_fields() {
+  if (!has_range() || !ImGui::BeginTable("range", 4, ImGuiTableFlags_SizingStretchProp)) return;
+  ImGui::TableSetupColumn("black", 0, 1.0f);
+  ImGui::TableSetupColumn("white", 0, 1.0f);
+  ImGui::TableSetupColumn("auto", ImGuiTableColumnFlags_WidthFixed);
+  ImGui::TableSetupColumn("all", ImGuiTableColumnFlags_WidthFixed);
+  const auto low = static_cast<double>(picture_->low), high = static_cast<double>(picture_->high);
+  double black = static_cast<double>(low_), white = static_cast<double>(high_);
+  ImGui::TableNextColumn();
+  bool changed = field("Black", black, low, white, "%.5g", "The value that is shown as black");
+  ImGui::TableNextColumn();
+  changed |= field("White", white, black, high, "%.5g", "The value that is shown as white");
+  ImGui::TableNextColumn();
+  if (button("Auto", true, "From the least to the greatest value of the picture")) {
+    const auto [least, most] = std::minmax_element(picture_->values.begin(), picture_->values.end());
+    black = static_cast<double>(*least), white = static_cast<double>(*most);
+    changed = true;
+  }
+  ImGui::TableNextColumn();
+  if (button("All", true, "Everything that samples of this type can be"))
+    black = low, white = high, changed = true;
+  ImGui::EndTable();
+  if (!changed) return;
+  low_ = static_cast<float>(black);
+  high_ = static_cast<float>(white);
+  stale_ = true;
 }
 
 void ImageView::draw_range(const char* name, float height) {

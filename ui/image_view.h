@@ -25,6 +25,8 @@ struct Picture {
   Extent size;
   int channels = 1;           ///< 1..4: grey, red and green, RGB, RGBA (alpha is shown by the values only)
   std::vector<float> values;  ///< interleaved, index (y * width + x) * channels + c
+  unsigned visible = 15;      ///< of several channels those that are drawn: bit c
+  int hex_digits = 0;         ///< of a value; 0: values are no whole numbers
   float low = 0.0f;           ///< the value that is black when the range is reset ...
   float high = 255.0f;        ///< ... and the white one
   /// Not empty: shown as it is (IM_COL32 a pixel) in place of the values, without range control.
@@ -45,11 +47,15 @@ struct ViewLink {
   double zoom = 0.0;                      ///< screen pixels a texel; 0: as large as fits
   bool nearest = true;
   bool tiled = false;                 ///< 3 x 3 repetitions
+  bool hex = false;                   ///< whole values are written so
+  std::optional<Offset> pinned = {};  ///< a texel that is marked, and told of while the mouse is elsewhere
   std::optional<Offset> cursor = {};  ///< texel under the mouse in any of the views, of the last frame
 
   /// `view` tells links apart: "texture".
   void parameters(Parameters& p, const std::string& view);
   void fit() { zoom = 0.0, centre_x = centre_y = 0.5; }
+  /// Brings a texel of a picture into the middle, near enough for its value, and pins it.
+  void go_to(Offset texel, Extent size);
 };
 
 /// The switches of a link: fit, 1:1, zoom in and out, nearest or linear, 3 x 3. `name` tells several sets
@@ -76,6 +82,8 @@ class ImageView {
   /// The range that is shown from black to white, under a histogram: two handles, a reset. Nothing for
   /// coloured ones.
   void draw_range(const char* name, float height);
+  /// The same as numbers, and what is least and greatest in the picture ("Auto"). One row.
+  void draw_range_fields();
 
  private:
   /// What is made from a picture and a range.
@@ -85,7 +93,12 @@ class ImageView {
   };
   static Prepared prepare(const Picture& picture, float low, float high);
   void prepare_texels();
-  std::string describe(int x, int y) const;
+  std::string describe(int x, int y, bool hex) const;
+  std::string value_text(float value, bool hex) const;
+  std::string below(const ViewLink& link, float width) const;
+  /// The values of a texel, where they fit into `size` pixels.
+  void draw_values(ImDrawList& list, int x, int y, ImVec2 corner, float size, bool hex) const;
+  float widest_value(bool hex) const;
 
   std::shared_ptr<const Picture> picture_ = std::make_shared<const Picture>();
   GlTexture texture_;

@@ -17,6 +17,8 @@ class ImGuiSession {
   ImGuiSession& operator=(const ImGuiSession&) = delete;
 };
 
+/// Draws frames until nothing is being computed: at least one.
+void run_until_idle(App& app, Surface& surface);
 /// Draws frames until the user leaves or the script ends. Errors: those of the script.
 void run_loop(App& app, Surface& surface, Script* script);
 

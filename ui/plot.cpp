@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "ui/items.h"
-#include "ui/plot_scale.h"
+#include "ui/plot_canvas.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 
@@ -13,55 +13,26 @@ namespace bn::ui {
 
 namespace {
 
-ImU32 faded(ImU32 colour, unsigned alpha) { return (colour & ~IM_COL32_A_MASK) | alpha << IM_COL32_A_SHIFT; }
-
-/// The colour scale of heat maps: one hue, more of it for more.
-ImU32 heat_colour(double share) {
-  static constexpr double kLight[3][3] = {{222, 235, 247}, {107, 174, 214}, {8, 48, 107}};
-  static constexpr double kDark[3][3] = {{24, 44, 66}, {52, 120, 178}, {205, 232, 255}};
-  const auto& stops = is_dark() ? kDark : kLight;
-  const double at = std::clamp(share, 0.0, 1.0) * 2.0;
-  const int i = at < 1.0 ? 0 : 1;
-  const auto part = [&](int c) {
-    return static_cast<unsigned>(stops[i][c] + (stops[i + 1][c] - stops[i][c]) * (at - i) + 0.5);
-  };
-  return IM_COL32(part(0), part(1), part(2), 255);
-}
-
-/// A plot while it is drawn: where everything is.
-struct Canvas {
-  ImDrawList& list;
-  ImVec2 min, max;  ///< of the area inside the axes
-  Scale x, y;
-
-  float place_x(double v) const { return min.x + static_cast<float>(x.share(v)) * (max.x - min.x); }
-  float place_y(double v) const { return max.y - static_cast<float>(y.share(v)) * (max.y - min.y); }
-  double share_x(float px) const { return (px - min.x) / (max.x - min.x); }
-  double share_y(float py) const { return (max.y - py) / (max.y - min.y); }
-};
-
 void draw_axes(const Canvas& c, const Figure& figure, const std::vector<Tick>& y_ticks, Interval x) {
   const Palette& p = palette();
   const float gap = em(0.3f), height = ImGui::GetTextLineHeight();
   c.list.AddRectFilled(c.min, c.max, p.background);
   const auto grid = [&](const Tick& t) { return faded(p.line, t.text.empty() ? 90 : 200); };
-  // The name of x stands among its numbers, where the widest gap is.
-  float free_from = -FLT_MAX, widest = 0.0f, name_at = 0.0f;
-  const float name_width = ImGui::CalcTextSize(figure.x.name.c_str()).x;
-  for (const Tick& t : ticks_of(figure.x, x, (c.max.x - c.min.x) / em(5))) {
+  float free_from = -FLT_MAX;
+  for (const Tick& t :
+       ticks_of(figure.x, x, (c.max.x - c.min.x) / em(figure.heat && x.high < 100.0 ? 2.5f : 5.0f))) {
     const float at = std::round(c.place_x(t.value));
-    c.list.AddLine({at, c.min.y}, {at, c.max.y}, grid(t));
+    if (!figure.heat) c.list.AddLine({at, c.min.y}, {at, c.max.y}, grid(t));
     const float wide = ImGui::CalcTextSize(t.text.c_str()).x;
     const float left = std::min(at - 0.5f * wide, c.max.x - wide + em(0.5f));
     if (t.text.empty() || left < free_from) continue;
     c.list.AddText({left, c.max.y + gap}, p.dim_text, t.text.c_str());
-    if (free_from > 0.0f && left - free_from >= widest) {
-      widest = left - free_from;
-      name_at = 0.5f * (left + free_from - em(0.8f) - name_width);
-    }
     free_from = left + wide + em(0.8f);
   }
-  if (name_width + em(0.8f) < widest) c.list.AddText({name_at, c.max.y + gap}, p.text, figure.x.name.c_str());
+  // The name of x has a line of its own, so that no number takes its place.
+  const float name = ImGui::CalcTextSize(figure.x.name.c_str()).x;
+  c.list.AddText({std::max(c.min.x, 0.5f * (c.min.x + c.max.x - name)), c.max.y + gap + 0.9f * height},
+                 p.text, figure.x.name.c_str());
   float free_to = FLT_MAX;
   for (const Tick& t : y_ticks) {
     const float at = std::round(c.place_y(t.value));
@@ -70,37 +41,6 @@ void draw_axes(const Canvas& c, const Figure& figure, const std::vector<Tick>& y
     const float width = ImGui::CalcTextSize(t.text.c_str()).x;
     c.list.AddText({c.min.x - gap - width, at - 0.5f * height}, p.dim_text, t.text.c_str());
     free_to = at - 0.5f * height;
-  }
-}
-
-void draw_heat(const Canvas& c, const HeatMap& heat) {
-  const Scale colour(heat.logarithmic, heat.colours);
-  const double width = (heat.x.high - heat.x.low) / std::max(1, heat.columns);
-  for (int row = 0; row < static_cast<int>(heat.rows.size()); ++row) {
-    for (int column = 0; column < heat.columns; ++column) {
-      const double value = heat.values[static_cast<std::size_t>(row * heat.columns + column)];
-      if (std::isnan(value)) continue;
-      const double share = heat.logarithmic && value <= 0.0 ? 0.0 : colour.share(value);
-      c.list.AddRectFilled({c.place_x(heat.x.low + column * width), c.place_y(row + 0.5)},
-                           {c.place_x(heat.x.low + (column + 1) * width), c.place_y(row - 0.5)},
-                           heat_colour(share));
-    }
-  }
-}
-
-void draw_colour_bar(const Canvas& c, const HeatMap& heat, float left) {
-  constexpr int kSteps = 24;
-  const Scale colour(heat.logarithmic, heat.colours);
-  const float height = c.max.y - c.min.y, text = ImGui::GetTextLineHeight();
-  for (int i = 0; i < kSteps; ++i) {
-    const float low = c.max.y - height * static_cast<float>(i) / kSteps;
-    c.list.AddRectFilled({left, low - height / kSteps}, {left + em(0.6f), low},
-                         heat_colour((i + 0.5) / kSteps));
-  }
-  for (const double share : {0.0, 0.5, 1.0}) {
-    const float at = c.max.y - height * static_cast<float>(share);
-    const float y = std::clamp(at - 0.5f * text, c.min.y - 0.2f * text, c.max.y - 0.9f * text);
-    c.list.AddText({left + em(0.8f), y}, palette().dim_text, short_number(colour.value(share), 2).c_str());
   }
 }
 
@@ -259,7 +199,7 @@ void draw_cursor(const Canvas& c, const Figure& figure, const std::set<std::stri
   const float at = c.place_x(x);
   if (at < c.min.x || at > c.max.x) return;
   c.list.AddLine({at, c.min.y}, {at, c.max.y}, faded(palette().text, 110));
-  std::string text = fmt::format("{}  {}", figure.x.name, short_number(x));
+  std::string text = fmt::format("{}{}{}", figure.x.name, figure.x.name.empty() ? "" : "  ", short_number(x));
   for (const Curve& curve : figure.curves) {
     const auto i = hidden.contains(curve.name) ? std::nullopt : nearest(curve, x);
     if (!i || std::isnan(clean(figure.y, curve.y[*i]))) continue;
@@ -315,8 +255,8 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   ImGui::BeginGroup();
   const Palette& p = palette();
   const ImVec2 top = ImGui::GetCursorScreenPos();
-  draw_legend(name, figure, size.x, hidden_);
-  const Fit fitting = fit(figure, hidden_, link.x);
+  draw_legend(name, figure, size.x, link.hidden);
+  const Fit fitting = fit(figure, link.hidden, link.x);
   Interval x = link.x.value_or(fitting.x), y = y_.value_or(fitting.y);
   if (!is_sound(figure.x, x)) x = fitting.x;
   if (!is_sound(figure.y, y)) y = fitting.y;
@@ -325,7 +265,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   const ImVec2 area{std::max(em(4), size.x), std::max(em(4), size.y - (corner.y - top.y))};
   ImGui::InvisibleButton("area", area, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
   const auto curves = std::count_if(figure.curves.begin(), figure.curves.end(),
-                                    [&](const Curve& curve) { return !hidden_.contains(curve.name); });
+                                    [&](const Curve& curve) { return !link.hidden.contains(curve.name); });
   items::record(name, fitting.points == 0 ? "empty"
                       : figure.heat       ? fmt::format("{} cells", fitting.points)
                                           : fmt::format("{} curves, {} points", curves, fitting.points));
@@ -341,12 +281,13 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   float label_width = em(3);  // enough for most, so that plots below each other are aligned
   for (const Tick& t : y_ticks) label_width = std::max(label_width, ImGui::CalcTextSize(t.text.c_str()).x);
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float bar = figure.heat ? em(4.2f) : em(0.6f);
-  const Canvas canvas{list,
-                      {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
-                      {corner.x + area.x - bar, corner.y + area.y - text - em(0.4f)},
-                      Scale(figure.x.logarithmic, x),
-                      Scale(figure.y.logarithmic, y)};
+  const float bar = figure.heat ? em(5.2f) : em(0.6f);
+  const Canvas canvas{
+      list,
+      {corner.x + label_width + em(0.5f), corner.y + em(0.3f)},
+      {corner.x + area.x - bar, corner.y + area.y - (figure.x.name.empty() ? 1.0f : 1.9f) * text - em(0.4f)},
+      Scale(figure.x.logarithmic, x),
+      Scale(figure.y.logarithmic, y)};
   if (fitting.points > 0) {
     draw_axes(canvas, figure, y_ticks, x);
   } else {
@@ -362,7 +303,7 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
   list.PushClipRect(canvas.min, canvas.max, true);
   if (figure.heat) draw_heat(canvas, *figure.heat);
   for (const Level& level : figure.levels) {
-    if (hidden_.contains(level.name)) continue;
+    if (link.hidden.contains(level.name)) continue;
     Curve line;
     line.colour = level.colour;
     line.x = {x.low, x.high};
@@ -371,10 +312,15 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
     draw_curve(canvas, figure, line);
   }
   for (const Curve& curve : figure.curves) {
-    if (!hidden_.contains(curve.name)) draw_curve(canvas, figure, curve);
+    if (!link.hidden.contains(curve.name)) draw_curve(canvas, figure, curve);
   }
-  if (fitting.points > 0 && link.cursor_frame >= frame - 1 && !figure.heat)
-    draw_cursor(canvas, figure, hidden_, link.cursor, inside && !held);
+  const bool linked = fitting.points > 0 && link.cursor_frame >= frame - 1;
+  if (linked) items::record(fmt::format("{} cursor", name), short_number(link.cursor));
+  if (linked && figure.heat) {
+    const float at = canvas.place_x(link.cursor);
+    list.AddLine({at, canvas.min.y}, {at, canvas.max.y}, faded(p.text, 110));
+  } else if (linked)
+    draw_cursor(canvas, figure, link.hidden, link.cursor, inside && !held);
   if (box_from_) list.AddRect(*box_from_, mouse, p.accent, 0, 0, 1.5f);
   list.PopClipRect();
   if (figure.heat) draw_colour_bar(canvas, *figure.heat, canvas.max.x + em(0.5f));
@@ -390,8 +336,10 @@ void Plot::draw(const char* name, const Figure& figure, ImVec2 size, PlotLink& l
     const int column =
         static_cast<int>((link.cursor - heat.x.low) / (heat.x.high - heat.x.low) * heat.columns);
     const int row = static_cast<int>(std::lround(canvas.y.value(canvas.share_y(mouse.y))));
-    if (column >= 0 && column < heat.columns && row >= 0 && row < static_cast<int>(heat.rows.size()))
+    if (column >= 0 && column < heat.columns && row >= 0 && row < static_cast<int>(heat.rows.size())) {
       tooltip(heat.describe(column, row));
+      if (heat.click && ImGui::IsMouseClicked(0)) heat.click(column, row);
+    }
   }
   steer(canvas, figure, inside, held, link.x, y_, box_from_);
   ImGui::EndGroup();

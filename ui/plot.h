@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace bn::ui {
@@ -57,8 +58,10 @@ struct HeatMap {
   std::vector<double> values;     ///< row * columns + column; NaN: an empty cell
   Interval colours;               ///< values of the ends of the colour scale
   bool logarithmic = false;       ///< likewise
-  /// What to say of a cell under the cursor.
+  /// What to say of a cell under the cursor, and what a click on it does.
   std::function<std::string(int column, int row)> describe = {};
+  std::function<void(int column, int row)> click = {};
+  std::optional<std::pair<int, int>> marked = {};  ///< column and row of a cell with a frame
 };
 
 struct Figure {
@@ -70,9 +73,10 @@ struct Figure {
   std::string empty = "nothing yet";  ///< what to say where there is no data
 };
 
-/// What plots side by side share: the stretch of x that they show, and where the cursor is.
+/// What plots side by side share: the stretch of x that they show, what is hidden, and where the cursor is.
 struct PlotLink {
-  std::optional<Interval> x = {};  ///< none: all of it
+  std::optional<Interval> x = {};     ///< none: all of it
+  std::set<std::string> hidden = {};  ///< names of curves
   double cursor = 0.0;
   int cursor_frame = -1;  ///< of ImGui, in which the cursor was there
 };
@@ -84,7 +88,6 @@ class Plot {
 
  private:
   std::optional<Interval> y_;       ///< none: fits
-  std::set<std::string> hidden_;    ///< names of curves
   std::optional<ImVec2> box_from_;  ///< where the right button went down
 };
 

@@ -25,6 +25,9 @@
 
 namespace bn::ui {
 
+/// Whether two options state one problem.
+bool same(const RetargetOptions& a, const RetargetOptions& b);
+
 /// What decides a run.
 struct RunSetup {
   AnnealProblem problem;

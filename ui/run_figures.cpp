@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "bn/palette.h"
 #include "ui/theme.h"
 
 namespace bn::ui {
@@ -79,6 +80,13 @@ std::int64_t sum(const std::array<std::int64_t, kWorseningClasses>& counts) {
 
 std::string RunEntry::name() const { return fmt::format("#{} {}", number, settings.schedule_name()); }
 
+RunStanding standing_of(const RunEntry& entry) {
+  const Standing standing = entry.run->standing();
+  const auto result = entry.run->has_ended() ? entry.run->result() : nullptr;
+  return {result ? result->tile.energy : standing.state.energy, standing.state.seconds,
+          standing.state.proposals};
+}
+
 std::optional<double> gap_percent(const RunEntry& entry, std::int64_t energy) {
   const RetargetTile* tile = entry.optimum ? entry.optimum->tile() : nullptr;
   if (tile == nullptr || tile->energy <= 0) return {};
@@ -139,7 +147,7 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
     const std::int64_t few = std::clamp<std::int64_t>(seen / 8, 4, 16);
     Curve worse;
     worse.name = "of worsening";
-    worse.colour = palette().series[1];
+    worse.colour = curve_colour(schedule_colour_number(run.entry->settings.schedule_name()) + 1);
     const double budget = static_cast<double>(run.entry->run->setup().options.proposals);
     std::int64_t tried = 0, accepted = 0;
     double last = 0.0;
@@ -161,7 +169,7 @@ Figure acceptance_figure(std::span<const DrawnRun> runs, Over over) {
 Figure surface_figure(const RunEntry& entry) {
   constexpr int kMostStretches = 32, kFewestStretches = 8;
   constexpr std::int64_t kFewest = 8;  // tried, to say a share
-  Figure result = figure("Accepted share of worsening swaps, by the rise of energy", "rise", false);
+  Figure result = figure(kSurfaceTitle, "rise", false);
   const double budget = static_cast<double>(entry.run->setup().options.proposals);
   std::array<std::array<std::int64_t, kWorseningClasses>, kMostStretches> tried{}, accepted{};
   std::array<std::int64_t, kWorseningClasses> total{};

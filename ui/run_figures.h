@@ -18,11 +18,20 @@ struct RunEntry {
   int number = 0;  ///< counted from 1 in the session
   std::shared_ptr<const Source> source;
   RunSettings settings;
+  std::string settings_text;  ///< RunSettings::all_text()
   std::shared_ptr<Run> run;
   std::shared_ptr<Optimum> optimum;  ///< null: this energy has no exact solver
 
   std::string name() const;  ///< "#2 exponential"
 };
+
+/// What a run has come to: the best once it has ended, else where it stands.
+struct RunStanding {
+  std::int64_t energy = 0;
+  double seconds = 0.0;
+  std::int64_t proposals = 0;
+};
+RunStanding standing_of(const RunEntry& entry);
 
 /// A run as it is drawn.
 struct DrawnRun {
@@ -37,6 +46,8 @@ Figure energy_figure(std::span<const DrawnRun> runs, Over over = Over::proposals
 Figure temperature_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
 /// Of all proposals; of a run alone, also of the worsening ones.
 Figure acceptance_figure(std::span<const DrawnRun> runs, Over over = Over::proposals);
+inline constexpr const char* kSurfaceTitle =
+    "Accepted share of worsening swaps, by the rise of energy (hatched: too few tried)";
 /// Accepted share of worsening swaps over the run and their size.
 Figure surface_figure(const RunEntry& entry);
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <tuple>
 
+#include "bn/palette.h"
 #include "ui/flow.h"
 #include "ui/parameters.h"
 #include "ui/theme.h"
@@ -14,6 +16,9 @@
 
 namespace bn::ui {
 namespace {
+
+/// Of the difference; 0: so that nearly all of it is seen.
+constexpr std::array<int, 4> kGains{0, 1, 8, 64};
 
 Picture picture_of(const Grid<std::int32_t>& levels) {
   Picture picture;
@@ -63,14 +68,27 @@ Picture target_picture(const Grid<std::int32_t>& levels, Offset step) {
   return picture;
 }
 
-Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step) {
+Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step,
+                           int gain) {
   Picture picture = permuted_picture(levels, move);
   const Picture target = target_picture(levels, step);
   for (std::size_t i = 0; i < picture.values.size(); ++i)
     picture.values[i] = std::abs(picture.values[i] - target.values[i]);
-  // White is an eighth of all levels: what annealing leaves is small, and must be seen.
-  picture.high = std::max(1.0f, std::round(picture.high / 8.0f));
+  const float all = picture.high;
+  if (gain > 0) {
+    picture.high = std::max(1.0f, std::round(all / static_cast<float>(gain)));
+    return picture;
+  }
+  // Nearly all differences are below white, which is a power of two, so that it seldom changes in a run.
+  std::vector<float> sorted = picture.values;
+  const auto place = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) * 199 / 200);
+  std::nth_element(sorted.begin(), place, sorted.end());
+  picture.high = std::min(all, std::exp2(std::ceil(std::log2(std::max(1.0f, *place)))));
   return picture;
+}
+
+double longest_move(const RetargetOptions& options) {
+  return options.radius * (options.reach == Reach::euclidean ? 1.0 : std::numbers::sqrt2);
 }
 
 Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options) {
@@ -78,19 +96,14 @@ Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options)
   picture.size = move.size();
   picture.channels = 2;
   const Offset m = options.motion;
-  const float reach = static_cast<float>(options.radius) *
-                      (options.reach == Reach::euclidean ? 1.0f : std::numbers::sqrt2_v<float>);
+  const double reach = longest_move(options);
   for (const Offset r : move) {
-    const float x = static_cast<float>(r.x - m.x), y = static_cast<float>(r.y - m.y);
-    const float hue = std::atan2(-y, x) / (2.0f * std::numbers::pi_v<float>);
-    float red = 0, green = 0, blue = 0;
-    ImGui::ColorConvertHSVtoRGB(hue < 0 ? hue + 1.0f : hue, std::min(1.0f, std::hypot(x, y) / reach * 1.2f),
-                                1.0f, red, green, blue);
-    picture.colours.push_back(ImGui::ColorConvertFloat4ToU32({red, green, blue, 1.0f}));
+    picture.colours.push_back(screen_colour(move_colour({r.x - m.x, r.y - m.y}, reach)));
     picture.values.push_back(static_cast<float>(r.x));
     picture.values.push_back(static_cast<float>(r.y));
   }
-  picture.overlay = [move, m, reach](ImDrawList& list, int x, int y, ImVec2 corner, float size) {
+  picture.overlay = [move, m, reach = static_cast<float>(reach)](ImDrawList& list, int x, int y,
+                                                                 ImVec2 corner, float size) {
     const Offset r = move(x, y);
     const float dx = static_cast<float>(r.x - m.x), dy = static_cast<float>(r.y - m.y),
                 length = std::hypot(dx, dy);
@@ -113,6 +126,7 @@ Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options)
 void RunPictures::parameters(Parameters& p) {
   link_.parameters(p, "run");
   p("run.spectrum_of", spectrum_of_, 0, 2);
+  p("run.gain", gain_, 0, static_cast<int>(kGains.size()) - 1);
 }
 
 RunPictures::Made RunPictures::make(const Subject& subject, std::shared_ptr<const Picture> target) {
@@ -126,7 +140,7 @@ RunPictures::Made RunPictures::make(const Subject& subject, std::shared_ptr<cons
   return {.of = subject,
           .permuted = shared(permuted_picture(levels, move)),
           .target = std::move(target),
-          .difference = shared(difference_picture(levels, move, options.step)),
+          .difference = shared(difference_picture(levels, move, options.step, kGains[subject.gain])),
           .offsets = shared(offset_picture(move, options))};
 }
 
@@ -151,7 +165,7 @@ void RunPictures::show(std::shared_ptr<const Source> source, const RetargetOptio
   constexpr std::int64_t kMostShown = std::int64_t{8192} * 8192;
   too_large_ = source && source->levels.value.size().area() > kMostShown;
   if (too_large_) source.reset();
-  wanted_ = {std::move(source), std::move(placement), options};
+  wanted_ = {std::move(source), std::move(placement), options, static_cast<std::size_t>(gain_)};
   // Another image's pictures would stand beside this one's figures.
   if (wanted_.source != shown_.source && wanted_.source != making_.source) clear();
   take_pictures();
@@ -201,8 +215,7 @@ void RunPictures::take_spectrum() {
         picture.size = grey.size();
         picture.values.assign(grey.begin(), grey.end());
         picture.describe = [size = grey.size()](int x, int y) {
-          return fmt::format("f = ({:.3f}, {:.3f}) cycles/pixel",
-                             static_cast<double>(x - size.width / 2) / size.width,
+          return fmt::format("f = ({:.3f}, {:.3f})", static_cast<double>(x - size.width / 2) / size.width,
                              static_cast<double>(y - size.height / 2) / size.height);
         };
         return Transformed{std::move(picture), radial_power(power)};
@@ -210,17 +223,36 @@ void RunPictures::take_spectrum() {
       1);
 }
 
-void RunPictures::draw(ImVec2 size, bool ranges) {
-  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
-  constexpr int kPictures = 5;
-  const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
-  const float before = ImGui::GetCursorPosY();
+void RunPictures::draw_controls() {
   draw_link_controls(link_);
-  static constexpr const char* kOf[] = {"permuted", "target", "difference"};
   set_label_width(0);
+  static constexpr const char* kOf[] = {"permuted", "target", "difference"};
   flow(choice_width("Spectrum of", kOf), em(1.5f));
   if (choice("Spectrum of", kOf, spectrum_of_)) spectrum_stale_ = true;
-  const float bar = ImGui::GetCursorPosY() - before, line = ImGui::GetTextLineHeightWithSpacing();
+  static constexpr const char* kGainWords[] = {"auto", "×1", "×8", "×64"};
+  flow(choice_width("Difference", kGainWords), em(1.5f));
+  choice("Difference", kGainWords, gain_,
+         "Gain: with ×8 an eighth of all levels is white; auto: what is there. The scale stands below the "
+         "picture");
+}
+
+void RunPictures::draw(ImVec2 size, bool ranges) {
+  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
+  const float before = ImGui::GetCursorPosY();
+  draw_controls();
+  draw_pictures({size.x, size.y - (ImGui::GetCursorPosY() - before)}, ranges);
+}
+
+void RunPictures::draw_controls_last(ImVec2 size) {
+  if (too_large_) return note("Images above 8192 × 8192 are annealed, but not shown.");
+  draw_pictures(size, false);
+  draw_controls();
+}
+
+void RunPictures::draw_pictures(ImVec2 size, bool ranges) {
+  constexpr int kPictures = 5;
+  const float gap = ImGui::GetStyle().ItemSpacing.x, row_gap = ImGui::GetStyle().ItemSpacing.y;
+  const float line = ImGui::GetTextLineHeightWithSpacing();
   const float range = ranges ? em(2.5f) + row_gap : 0.0f;
   // As many columns as make the pictures largest.
   int columns = 1;
@@ -228,16 +260,16 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
   for (int c = 1; c <= kPictures; ++c) {
     const int rows = (kPictures + c - 1) / c;
     const float w = (size.x - gap * static_cast<float>(c - 1)) / static_cast<float>(c);
-    const float h = std::max(em(7), (size.y - bar) / static_cast<float>(rows) - line - range - row_gap);
+    const float h = std::max(em(7), size.y / static_cast<float>(rows) - line - range - row_gap);
     // Below the picture stands a line of values.
-    if (c > 1 && std::min(w, h - line) <= std::min(width, height - line)) continue;
+    if (c > 1 && std::min(w, h - line) < std::min(width, height - line)) continue;
     columns = c, width = w, height = h;
   }
   const std::tuple<const char*, ImageView*, ViewLink*, const char*> all[] = {
       {"Permuted", &permuted_, &link_, "The mask after the seeds have moved: at u + R(u) the level of u"},
       {"Target", &target_, &link_, "The next frame's mask: the same one, moved by the step"},
       {"Difference", &difference_, &link_, "Its sum is the energy (L1)"},
-      {"Offsets", &offsets_, &link_, "Where each seed goes: the hue is the direction, pale is near"},
+      {"Offsets", &offsets_, &link_, "Where each seed goes: the hue is the direction, grey is near"},
       {"Spectrum", &spectrum_, &spectrum_link_, "Power in decibels, frequency 0 in the middle"}};
   int i = 0;
   for (const auto& [name, view, link, hint] : all) {
@@ -245,6 +277,10 @@ void RunPictures::draw(ImVec2 size, bool ranges) {
     ImGui::BeginGroup();
     ImGui::TextUnformatted(name);
     tooltip(hint);
+    if (view == &offsets_ && !view->empty()) {
+      ImGui::SameLine();
+      legend_.draw(ImGui::GetTextLineHeight(), longest_move(shown_.options));
+    }
     view->draw(name, *link, {width, height});
     if (ranges) {
       ImGui::BeginChild(name, {width, em(2.5f)}, false,
@@ -267,7 +303,7 @@ Figure RunPictures::spectrum_figure() const {
   if (!curve_) return figure;
   Curve curve;
   curve.name = kOf[spectrum_of_];
-  curve.colour = palette().series[0];
+  curve.colour = curve_colour(0);
   curve.x = curve_->frequency;
   curve.y = curve_->power;
   figure.curves.push_back(std::move(curve));

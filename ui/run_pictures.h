@@ -8,6 +8,7 @@
 #include "bn/retarget_anneal.h"
 #include "bn/spectrum.h"
 #include "ui/image_view.h"
+#include "ui/move_legend.h"
 #include "ui/plot.h"
 #include "ui/run.h"
 #include "ui/source.h"
@@ -19,10 +20,13 @@ namespace bn::ui {
 Picture permuted_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move);
 /// The levels that belong there: at v the level of v + d.
 Picture target_picture(const Grid<std::int32_t>& levels, Offset step);
-/// The size of their difference.
-Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step);
-/// R(u) - m as hue (where to) and saturation (how far, of `radius`); with arrows where there is room for
-/// them.
+/// The size of their difference. White is 1 / `gain` of all levels; 0: a power of two that nearly all is
+/// below.
+Picture difference_picture(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step, int gain);
+/// The length that has the full colour in offset_picture().
+double longest_move(const RetargetOptions& options);
+/// R(u) - m in the colours of bn/palette.h: the hue says where to, its strength how far; with arrows where
+/// there is room for them.
 Picture offset_picture(const Grid<Offset>& move, const RetargetOptions& options);
 
 class RunPictures {
@@ -33,6 +37,8 @@ class RunPictures {
             std::shared_ptr<const Placement> placement);
   /// Five pictures, `size` in all; with `ranges` each has the control of its range below.
   void draw(ImVec2 size, bool ranges);
+  /// For narrow windows: the pictures take `size`, their controls stand below.
+  void draw_controls_last(ImVec2 size);
   Figure spectrum_figure() const;  ///< power by frequency
   bool busy() const;
   void parameters(Parameters& p);
@@ -44,13 +50,14 @@ class RunPictures {
     std::shared_ptr<const Source> source;
     std::shared_ptr<const Placement> placement;
     RetargetOptions options;
+    std::size_t gain = 0;
     bool same_image(const Subject& other) const {
       return source == other.source && options.step == other.options.step &&
              options.motion == other.options.motion;
     }
     bool same(const Subject& other) const {
       return same_image(other) && placement == other.placement && options.radius == other.options.radius &&
-             options.reach == other.options.reach;
+             options.reach == other.options.reach && gain == other.gain;
     }
   };
   struct Made {
@@ -63,6 +70,8 @@ class RunPictures {
     Picture picture;
     RadialCurve curve;
   };
+  void draw_controls();
+  void draw_pictures(ImVec2 size, bool ranges);
   void clear();
   void take_pictures();
   void take_spectrum();
@@ -71,8 +80,10 @@ class RunPictures {
   bool too_large_ = false;
   Task<Made> make_;
   ImageView permuted_, target_, difference_, offsets_, spectrum_;
+  MoveLegend legend_;
   ViewLink link_, spectrum_link_;
   int spectrum_of_ = 0;  ///< 0 permuted, 1 target, 2 difference
+  int gain_ = 0;         ///< index into kGains
   bool spectrum_stale_ = false;
   Task<Transformed> transform_;
   std::optional<RadialCurve> curve_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bn/error.h"
+#include "ui/declared.h"
 #include "ui/parameters.h"
 #include "ui/plot.h"
 #include "ui/widgets.h"
@@ -18,6 +19,8 @@ namespace {
 using Rule = StartTemperature::Rule;
 
 constexpr double kAny = std::numeric_limits<double>::max();
+constexpr double kLeastBlur = 0.3;  ///< the option's own least, 0, is "none"
+constexpr int kMostThreads = 64;
 
 const std::vector<std::string>& schedules() {
   static const std::vector<std::string> names = [] {
@@ -36,23 +39,28 @@ std::string factor_text(double factor) {
 }  // namespace
 
 void RunSettings::parameters(Parameters& p) {
-  constexpr std::int64_t kMostSide = 16384, kMostSeed = std::numeric_limits<std::int64_t>::max();
+  const auto whole = [&](const char* name, auto& value, const Option& option) {
+    using Number = std::remove_reference_t<decltype(value)>;
+    p(name, value, static_cast<Number>(option.least), static_cast<Number>(option.most));
+  };
   p("run.bake", bakes_mask);
-  p("run.mask.width", mask_width, 1, kMostSide);
-  p("run.mask.height", mask_height, 1, kMostSide);
-  p("run.mask.sigma", mask_sigma_px, 0.3, 16.0);
-  p("run.mask.seed", mask_seed, 0, kMostSeed);
+  whole("run.mask.width", mask_width, declared("mask", "size"));
+  whole("run.mask.height", mask_height, declared("mask", "size"));
+  const Option& sigma = declared("mask", "sigma");
+  p("run.mask.sigma", mask_sigma_px, sigma.least_real, sigma.most_real);
+  whole("run.mask.seed", mask_seed, declared("mask", "seed"));
   p("run.image", file);
-  p("run.channel", channel, 0, 63);
+  whole("run.channel", channel, declared("retarget", "channel"));
   p("run.step.auto", auto_step);
-  p("run.step.x", step_x, -65536, 65536);
-  p("run.step.y", step_y, -65536, 65536);
-  p("run.radius", radius, 1, 32);
+  whole("run.step.x", step_x, declared("retarget", "step"));
+  whole("run.step.y", step_y, declared("retarget", "step"));
+  whole("run.radius", radius, declared("retarget", "radius"));
   p("run.reach", reach, 0, 1);
   p("run.metric", metric, 0, 2);
-  p("run.residual_sigma", residual_sigma_px, 0.3, 8.0);
-  p("run.motion.x", motion_x, -127, 127);
-  p("run.motion.y", motion_y, -127, 127);
+  p("run.residual_sigma", residual_sigma_px, kLeastBlur, declared("retarget", "residual_sigma").most_real);
+  const int most_motion = static_cast<int>(declared("retarget", "motion").most);
+  p("run.motion.x", motion_x, -most_motion, most_motion);
+  p("run.motion.y", motion_y, -most_motion, most_motion);
   p("run.wrap", wraps);
   p("run.schedule", schedule, 0, static_cast<int>(schedules().size()) - 1);
   p("run.start.rule", start_rule, 0, 3);
@@ -71,8 +79,8 @@ void RunSettings::parameters(Parameters& p) {
     p(name("frozen_stages").c_str(), c.frozen_stages);
   }
   p("run.proposals", proposals, -kAny, kAny);
-  p("run.seed", seed, 0, kMostSeed);
-  p("run.threads", threads, 1, 64);
+  whole("run.seed", seed, declared("retarget", "seed"));
+  p("run.threads", threads, 1, kMostThreads);
 }
 
 SourceChoice RunSettings::source() const {
@@ -89,9 +97,11 @@ SourceChoice RunSettings::source() const {
   return choice;
 }
 
+Offset RunSettings::step() const { return {static_cast<int>(step_x), static_cast<int>(step_y)}; }
+
 RetargetOptions RunSettings::retarget(const Source& source) const {
   RetargetOptions options;
-  options.step = auto_step ? bn::auto_step(source.levels.value.size()).step : Offset{step_x, step_y};
+  options.step = auto_step ? bn::auto_step(source.levels.value.size()).step : step();
   options.motion = {motion_x, motion_y};
   options.radius = radius;
   options.reach = static_cast<Reach>(reach);
@@ -123,6 +133,16 @@ AnnealOptions RunSettings::options() const {
 
 std::string RunSettings::schedule_name() const { return schedules().at(static_cast<std::size_t>(schedule)); }
 
+std::string RunSettings::all_text() const {
+  Settings all;
+  Parameters saving = Parameters::saving(all);
+  const_cast<RunSettings*>(this)->parameters(saving);
+  all.erase("run.threads");  // which change no byte
+  std::string text;
+  for (const auto& [name, value] : all) text += name + '=' + value + '\n';
+  return text;
+}
+
 std::string RunSettings::text() const {
   return fmt::format("{}, {} proposals, seed {}", schedule_name(), short_number(proposals), seed);
 }
@@ -136,15 +156,15 @@ RetargetEntry RunSettings::entry(const AnnealResult& result, const std::filesyst
                  .remedy = std::move(remedy)});
   };
   const int range = std::max(std::abs(motion_x), std::abs(motion_y));
-  constexpr int kMostMotion = 8;
-  if (range > kMostMotion) {
+  const std::int64_t most = declared("retarget", "motion").most;
+  if (range > most) {
     refuse(fmt::format("motion ({}, {})", motion_x, motion_y),
-           "recipes go up to 8 pixels; choose a smaller motion");
+           fmt::format("recipes go up to {} pixels; choose a smaller motion", most));
   }
   RetargetEntry entry;
   entry.name = tile.stem().string();
   entry.channel = bakes_mask ? 0 : channel;
-  if (!auto_step) entry.step = Offset{step_x, step_y};
+  if (!auto_step) entry.step = step();
   entry.problem.radius = radius;
   entry.problem.reach = static_cast<Reach>(reach);
   entry.problem.metric = metric == 0 ? Metric::l1 : Metric::l2;
@@ -168,12 +188,10 @@ void draw_image_settings(RunSettings& s, const Source* source) {
   if (choice("From", kFrom, from, "A void-and-cluster mask made on the spot, or an image file"))
     s.bakes_mask = from == 0;
   if (s.bakes_mask) {
-    field("Width", s.mask_width, 1, 16384, "Pixels, 1..16384");
-    field("Height", s.mask_height, 1, 16384, "Pixels, 1..16384");
-    slider("Sigma", s.mask_sigma_px, 0.5, 4.0, "%.2f px", false,
-           "Of the Gaussian of void-and-cluster, in pixels; 1.9 suits most");
-    field("Mask seed", s.mask_seed, 0, std::numeric_limits<std::int64_t>::max(),
-          "Equal seeds give equal masks");
+    field("Width", s.mask_width, declared("mask", "size"));
+    field("Height", s.mask_height, declared("mask", "size"));
+    slider("Sigma", s.mask_sigma_px, declared("mask", "sigma"), "%.2f px");
+    field("Mask seed", s.mask_seed, declared("mask", "seed"));
   } else {
     std::string path = s.file.string();
     if (field("Image file", path, "Any image that OpenImageIO reads; or drop a file onto the window"))
@@ -192,10 +210,13 @@ void draw_energy_settings(RunSettings& s, const Source* source) {
     const Offset step = source != nullptr ? bn::auto_step(source->levels.value.size()).step : Offset{};
     value("Step", source != nullptr ? fmt::format("({}, {})", step.x, step.y) : "–");
   } else {
-    slider("Step x", s.step_x, 0, 255, "How far the mask moves to the right from frame to frame, in pixels");
-    slider("Step y", s.step_y, 0, 255, "How far the mask moves down from frame to frame, in pixels");
+    const Option& step = declared("retarget", "step");
+    field("Step x", s.step_x, step.least, step.most,
+          "How far the mask moves to the right from frame to frame, in pixels");
+    field("Step y", s.step_y, step.least, step.most,
+          "How far the mask moves down from frame to frame, in pixels");
   }
-  slider("Radius", s.radius, 1, 32, "The farthest a seed may move, in pixels");
+  slider("Radius", s.radius, declared("retarget", "radius"));
   static constexpr const char* kShapes[] = {"Square", "Disc"};
   choice("Shape", kShapes, s.reach, "How the radius is measured: Chebyshev or Euclidean");
   static constexpr const char* kMetrics[] = {"L1", "L2", "Blurred"};
@@ -204,9 +225,11 @@ void draw_energy_settings(RunSettings& s, const Source* source) {
          "differences; the "
          "last has no exact solver");
   if (s.metric == 2)
-    slider("Blur", s.residual_sigma_px, 0.3, 8.0, "%.2f px", false, "Standard deviation of that blur");
-  slider("Motion x", s.motion_x, -8, 8, "How far the picture moves to the right from frame to frame");
-  slider("Motion y", s.motion_y, -8, 8, "How far the picture moves down from frame to frame");
+    slider("Blur", s.residual_sigma_px, kLeastBlur, declared("retarget", "residual_sigma").most_real,
+           "%.2f px", false, "Standard deviation of that blur");
+  const int most = static_cast<int>(declared("retarget", "motion").most);
+  slider("Motion x", s.motion_x, -most, most, "How far the picture moves to the right from frame to frame");
+  slider("Motion y", s.motion_y, -most, most, "How far the picture moves down from frame to frame");
 }
 
 namespace {
@@ -300,8 +323,8 @@ void draw_schedule_settings(RunSettings& s, const Plan* plan, const ErrorInfo* r
   field("Proposals", s.proposals, -kAny, kAny, "%.6g",
         "The budget: pairs of seeds that are tried, such as 1e9");
   complain_of("proposals");
-  field("Seed", s.seed, 0, std::numeric_limits<std::int64_t>::max(), "Of annealing's random numbers");
-  slider("Threads", s.threads, 1, 16, "Useful from 128 rows on; they change no byte");
+  field("Seed", s.seed, declared("retarget", "seed"));
+  slider("Threads", s.threads, 1, kMostThreads, "Useful from 128 rows on; they change no byte");
   complain_of("");
 }
 

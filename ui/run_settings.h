@@ -27,7 +27,7 @@ struct RunSettings {
   int channel = 0;
   // the energy
   bool auto_step = true;
-  int step_x = 48, step_y = 36;
+  std::int64_t step_x = 48, step_y = 36;
   int radius = 6;
   int reach = 0;                 ///< as Reach
   int metric = 0;                ///< as Metric; 2: L2 of the residual
@@ -48,12 +48,15 @@ struct RunSettings {
   void parameters(Parameters& p);
 
   SourceChoice source() const;
+  Offset step() const;
   RetargetOptions retarget(const Source& source) const;
   AnnealProblem problem(const Source& source) const;  ///< a copy of the levels: not for every frame
   AnnealOptions options() const;
   std::string schedule_name() const;
   /// "exponential, 1e9 proposals, seed 1".
   std::string text() const;
+  /// All that decides a run: two are equal iff their runs are.
+  std::string all_text() const;
   /// The same run as a recipe has it, for a tile at `file`: where `result` is of a run that was not finished,
   /// ended where that one is. Errors: invalid_input, saying what recipes cannot.
   RetargetEntry entry(const AnnealResult& result, const std::filesystem::path& file) const;

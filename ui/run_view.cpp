@@ -89,8 +89,6 @@ void RunView::draw(App& app) {
   ImGui::BeginChild("run");
   ImGui::PopStyleColor();
   draw_controls(app);
-  draw_standing();
-
   const Run* run = entry_ ? entry_->run.get() : nullptr;
   // What is shown is of the run, until the settings ask for another image.
   try {
@@ -102,17 +100,21 @@ void RunView::draw(App& app) {
   } catch (...) {
     app.report_in_flight();
   }
+  // In a narrow window pictures come before figures, each as high as it needs, and all of it scrolls.
+  const bool narrow = ImGui::GetContentRegionAvail().x < em(40);
+  if (!narrow) draw_standing();
   const ImVec2 room = ImGui::GetContentRegionAvail();
-  // In a narrow window the panels are as high as they need, and all of it scrolls.
-  const bool narrow = room.x < em(40);
-  if (layout_ != 1) {
-    const float tall = 1.5f * room.x + em(12);
-    begin_panel("pictures", {0, narrow         ? tall
-                                : layout_ == 2 ? std::max(em(20), room.y)
-                                               : std::max(em(14), room.y * 0.42f)});
+  if (layout_ != 1 && narrow) {
+    const float pictures = std::max(em(19), room.y - em(2));
+    begin_panel("pictures", {0, pictures + em(9)});
+    pictures_.draw_controls_last({ImGui::GetContentRegionAvail().x, pictures});
+    end_panel();
+  } else if (layout_ != 1) {
+    begin_panel("pictures", {0, layout_ == 2 ? std::max(em(20), room.y) : std::max(em(14), room.y * 0.42f)});
     pictures_.draw(ImGui::GetContentRegionAvail(), layout_ == 2);
     end_panel();
   }
+  if (narrow) draw_standing();
   if (layout_ != 2) {
     begin_panel("plots", {0, narrow ? em(60) : std::max(em(20), ImGui::GetContentRegionAvail().y)});
     draw_plots(ImGui::GetContentRegionAvail());
@@ -218,8 +220,12 @@ void RunView::draw_standing() {
             : !entry_->optimum           ? "none"
             : entry_->optimum->solving() ? "solving …"
                                          : "failed";
+  const bool outdated = entry_ && entry_->settings_text != settings_.all_text();
+  const bool ended = entry_ && standing.phase >= Phase::finished;
   const std::pair<const char*, std::string> cells[] = {
-      {"State", entry_ ? phase_name(standing.phase) : "no run yet"},
+      {"State", !entry_             ? "no run yet"
+                : outdated && ended ? "changed"
+                                    : phase_name(standing.phase)},
       {"Energy", any ? fmt::format("{}{}", energy, percent_of_start(energy)) : "–"},
       {"Optimum", bound},
       {"Gap", percent_text(gap)},
@@ -252,13 +258,25 @@ void RunView::draw_standing() {
   }
   const auto rows = static_cast<float>((kCells + columns - 1) / columns);
   const float cell = 2 * ImGui::GetTextLineHeightWithSpacing();
-  begin_panel("standing", {0, rows * cell + ImGui::GetFrameHeight() + 2 * style.WindowPadding.y});
+  begin_panel("standing",
+              {0, rows * cell + ImGui::GetFrameHeight() +
+                      (outdated ? ImGui::GetTextLineHeightWithSpacing() : 0.0f) + 2 * style.WindowPadding.y});
+  if (outdated) {
+    const std::string text =
+        ended ? fmt::format("Settings changed; figures and curves are of the last run, {}.", entry_->name())
+              : fmt::format("Settings changed; {} goes on with its own.", entry_->name());
+    ImGui::PushStyleColor(ImGuiCol_Text, palette().warn);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    items::record("Changed", text);
+  }
   for (std::size_t i = 0; i < kCells; ++i) {
     if (i % columns != 0) ImGui::SameLine(style.WindowPadding.x + places[i % columns]);
     figure_cell(cells[i].first, cells[i].second);
   }
   progress_bar("Progress", std::min(1.0, static_cast<double>(state.proposals) / budget),
-               any ? fmt::format("{} of {} proposals", short_number(static_cast<double>(state.proposals)),
+               any ? fmt::format("{} of {} proposals",
+                                 short_number(std::min(static_cast<double>(state.proposals), budget), 3),
                                  short_number(budget))
                    : "");
   end_panel();
@@ -273,14 +291,14 @@ void RunView::draw_plots(ImVec2 size) {
       std::max(em(9), (size.y - row_gap * static_cast<float>(rows - 1)) / static_cast<float>(rows));
   Figure energy, temperature, acceptance, surface;
   if (entry_) {
-    const DrawnRun drawn[] = {{entry_.get(), palette().series[0]}};
+    const DrawnRun drawn[] = {{entry_.get(), schedule_colour(entry_->settings.schedule_name())}};
     energy = energy_figure(drawn);
     temperature = temperature_figure(drawn);
     acceptance = acceptance_figure(drawn);
     surface = surface_figure(*entry_);
   } else {
     energy.title = "Energy", temperature.title = "Temperature", acceptance.title = "Accepted";
-    surface.title = "Accepted share of worsening swaps, by the rise of energy";
+    surface.title = kSurfaceTitle;
     for (Figure* figure : {&energy, &temperature, &acceptance, &surface})
       figure->empty = "starts with the run";
   }
@@ -308,7 +326,7 @@ void RunView::draw_plots(ImVec2 size) {
   if (columns == 2) ImGui::SameLine();
   acceptance_plot_.draw("Acceptance plot", acceptance, {width, height}, plot_link_);
   if (columns > 2) ImGui::SameLine();
-  surface_plot_.draw("Surface plot", surface, {columns == 2 ? size.x : last_width, height}, surface_link_);
+  surface_plot_.draw("Surface plot", surface, {columns == 2 ? size.x : last_width, height}, plot_link_);
 }
 
 }  // namespace bn::ui

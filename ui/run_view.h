@@ -68,7 +68,7 @@ class RunView {
 
   RunPictures pictures_;
   Plot energy_plot_, temperature_plot_, acceptance_plot_, surface_plot_, spectrum_plot_;
-  PlotLink plot_link_, surface_link_, spectrum_link_;
+  PlotLink plot_link_, spectrum_link_;
 };
 
 }  // namespace bn::ui

@@ -8,18 +8,13 @@
 
 #include "bn/error.h"
 #include "ui/app.h"
-#include "ui/parameters.h"
 #include "ui/run_view.h"
 
 namespace bn::ui {
-namespace {
-
 bool same(const RetargetOptions& a, const RetargetOptions& b) {
   return a.step == b.step && a.motion == b.motion && a.radius == b.radius && a.reach == b.reach &&
          a.metric == b.metric && a.wrap == b.wrap;
 }
-
-}  // namespace
 
 void RunView::load_source(App& app) {
   const SourceChoice choice = settings_.source();
@@ -42,13 +37,8 @@ void RunView::load_source(App& app) {
 
 void RunView::make_plan(App& app) {
   if (source_ && !ImGui::IsAnyItemActive()) {
-    Settings all;
-    Parameters saving = Parameters::saving(all);
-    settings_.parameters(saving);
-    std::string now;
-    for (const auto& [name, text] : all) now += name + '=' + text + '\n';
-    if (now != planned_) {
-      planned_ = now;
+    if (std::string now = settings_.all_text(); now != planned_) {
+      planned_ = std::move(now);
       planning_.start(
           [source = source_, settings = settings_](const Execution& execution) {
             return plan_of(settings.problem(*source), settings.options(), execution);
@@ -78,6 +68,7 @@ void RunView::begin_run(App& app) {
     entry->number = runs_ + 1;
     entry->source = source_;
     entry->settings = settings_;
+    entry->settings_text = settings_.all_text();
     RunSetup setup{settings_.problem(*source_), settings_.options(), settings_.threads};
     if (Optimum::exists_for(setup.problem)) {
       const bool known = entry_ && entry_->optimum && entry_->source == source_ &&

@@ -23,12 +23,12 @@ constexpr double kDefaultWaitSeconds = 30.0;
 
 /// How many words follow each command.
 const std::map<std::string_view, std::pair<std::size_t, std::size_t>> kCommands{
-    {"open", {1, 1}},         {"drop", {1, 1}},     {"click", {1, 2}},  {"right-click", {1, 1}},
-    {"double-click", {1, 1}}, {"hover", {1, 3}},    {"drag", {5, 5}},   {"wheel", {2, 2}},
-    {"key", {1, 9}},          {"type", {1, 1}},     {"set", {2, 2}},    {"choose", {2, 2}},
-    {"wait", {1, 1}},         {"wait-for", {2, 4}}, {"expect", {2, 3}}, {"screenshot", {1, 1}},
-    {"resize", {2, 2}},       {"scale", {1, 1}},    {"theme", {1, 1}},  {"print", {1, 1}},
-    {"measure", {1, 1}},      {"random", {2, 2}},   {"quit", {0, 0}}};
+    {"open", {1, 1}},        {"drop", {1, 1}},         {"click", {1, 2}},    {"ctrl-click", {1, 1}},
+    {"right-click", {1, 1}}, {"double-click", {1, 1}}, {"hover", {1, 3}},    {"drag", {5, 5}},
+    {"wheel", {2, 2}},       {"key", {1, 9}},          {"type", {1, 1}},     {"set", {2, 2}},
+    {"choose", {2, 2}},      {"wait", {1, 1}},         {"wait-for", {2, 4}}, {"expect", {2, 3}},
+    {"screenshot", {1, 1}},  {"resize", {2, 2}},       {"scale", {1, 1}},    {"theme", {1, 1}},
+    {"print", {1, 1}},       {"measure", {1, 1}},      {"random", {2, 2}},   {"quit", {0, 0}}};
 
 /// Words are parted by spaces; "..." holds one with spaces, # begins a comment.
 std::vector<std::string> words_of(const std::string& line) {
@@ -206,7 +206,7 @@ bool Script::before_frame(App& app) {
         continue;
       } else if (Clock::now() > deadline_) {
         fail(true, fmt::format("waited in vain for {}; it is: {}", fmt::join(condition_, " "), found),
-             app.errors().empty() ? "" : "the window says: " + app.errors().back());
+             app.errors().empty() ? "" : fmt::format("the window says: {}", app.errors().back().what()));
       } else {
         // As a window does: what is waited for has the processor in between.
         std::this_thread::sleep_for(std::chrono::milliseconds(16));
@@ -229,8 +229,8 @@ bool Script::before_frame(App& app) {
 }
 
 bool Script::scrolls_to(const Command& command) {
-  static constexpr std::array kOnItems{"click", "right-click", "double-click", "hover",
-                                       "drag",  "wheel",       "set",          "choose"};
+  static constexpr std::array kOnItems{"click", "ctrl-click", "right-click", "double-click", "hover",
+                                       "drag",  "wheel",      "set",         "choose"};
   const auto& words = command.words;
   if (std::find(kOnItems.begin(), kOnItems.end(), words[0]) == kOnItems.end()) return false;
   const Item* found = items::find(words[1]);
@@ -271,6 +271,8 @@ void Script::start(App& app, const Command& command) {
     queue_click({static_cast<float>(number(1)), static_cast<float>(number(2))});
   } else if (verb == "click") {
     queue_click(point(words[1]));
+  } else if (verb == "ctrl-click") {
+    queue_click(point(words[1]), false, true);
   } else if (verb == "right-click") {
     queue_click(point(words[1]), true);
   } else if (verb == "double-click") {

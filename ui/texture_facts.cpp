@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "ui/app.h"
+#include "ui/recipe_text.h"
 #include "ui/texture_view.h"
 #include "ui/widgets.h"
 
@@ -33,8 +34,9 @@ struct Row {
 std::vector<Row> rows_of(const FiguresOfMerit& f) {
   std::vector<Row> rows;
   for (std::size_t i = 0; i < f.bands.mean.size(); ++i) {
-    rows.push_back(
-        {fmt::format("bands[{}]", i), fmt::format("Power, f ≤ {}", kBandEdges[i]), f.bands.mean[i]});
+    rows.push_back({fmt::format("bands[{}]", i),
+                    fmt::format("Power, f {}…{}", i == 0 ? 0.0 : kBandEdges[i - 1], kBandEdges[i]),
+                    f.bands.mean[i]});
   }
   rows.push_back({"peak", "Peak power", f.peak});
   rows.push_back({"peak_frequency", "Peak frequency", f.peak_frequency});
@@ -55,7 +57,8 @@ void TextureView::draw_facts(App& app) {
   value("Name", texture_->path.filename().string(), texture_->path.string());
   draw_verdict();
   draw_metadata();
-  if (texture_->images.size() == 1 && button("Anneal it", true, "Take this image to the Run view")) {
+  if (texture_->images.size() == 1 && !is_retarget(*texture_) &&
+      button("Anneal it", true, "Take this image to the Run view")) {
     app.run.open(texture_->path);
     app.show(Tab::run);
   }
@@ -100,10 +103,15 @@ void TextureView::draw_metadata() {
   const Image& first = texture_->images[0];
   const int slices = slice_count(*texture_, section_.cut);
   const Extent size = slice_size(*texture_, section_.cut);
-  value("Size", slices > 1 ? fmt::format("{} × {}, {} slices", size.width, size.height, slices)
+  const char* parts = motion_range(*texture_) > 0 ? "motions" : "slices";
+  value("Size", slices > 1 ? fmt::format("{} × {}, {} {}", size.width, size.height, slices, parts)
                            : fmt::format("{} × {}", size.width, size.height));
   value("Samples", fmt::format("{} × {}", first.channels, name_of(first.type)));
-  if (texture_->images.size() == 1) {
+  // Our own files say how they are cut.
+  if (section_.cut.count() > 1 && texture_->metadata) {
+    value("Columns", fmt::format("{}", section_.cut.columns));
+    value("Rows", fmt::format("{}", section_.cut.rows));
+  } else if (texture_->images.size() == 1 && !texture_->metadata) {
     std::int64_t columns = section_.cut.columns, rows = section_.cut.rows;
     const bool changed = field("Columns", columns, 1, first.size.width, "Of an atlas of equal tiles") |
                          field("Rows", rows, 1, first.size.height, "Of an atlas of equal tiles");
@@ -135,9 +143,7 @@ void TextureView::draw_metadata() {
   value("Pixel hash", texture_->hash_fits ? "as recorded" : "not the recorded one",
         texture_->hash_fits ? palette().good : palette().bad, m.pixel_hash);
   if (ImGui::TreeNode("Recipe")) {
-    ImGui::PushFont(mono_font());
-    note(m.recipe);
-    ImGui::PopFont();
+    show_recipe(m.recipe);
     ImGui::TreePop();
   }
   items::record("Recipe");
@@ -164,18 +170,21 @@ void TextureView::draw_tile_record() {
 }
 
 void TextureView::draw_figures() {
+  if (is_retarget(*texture_)) return;  // a tile's figure is its energy
   heading("Figures of merit");
+  if (const std::string of = channel_text(); !of.empty()) {
+    note(of);
+    items::record("Figures of channel", of);
+  }
   combo("Thresholds", kThresholds, thresholds_,
         "As bn spectrum --check; fitting: stbn for stacks, else blue");
   if (!analysis_) return note(analysing_.running() ? "Transforming …" : "");
   const FiguresOfMerit& figures = analysis_->figures;
-  const bool moves = texture_->metadata && texture_->metadata->kind.starts_with("retarget");
   std::vector<JudgedFigure> judged;
-  if (thresholds_ == 2 || (thresholds_ == 0 && figures.shape.depth == 1 && !moves))
+  if (thresholds_ == 2 || (thresholds_ == 0 && figures.shape.depth == 1))
     judged = judge(figures, Check::blue);
   if (thresholds_ == 3) judged = judge(figures, Check::white);
-  if (thresholds_ == 4 || (thresholds_ == 0 && figures.shape.depth > 1 && !moves))
-    judged = judge(figures, Check::stbn);
+  if (thresholds_ == 4 || (thresholds_ == 0 && figures.shape.depth > 1)) judged = judge(figures, Check::stbn);
   if (!judged.empty()) {
     const bool all =
         std::all_of(judged.begin(), judged.end(), [](const auto& figure) { return figure.passed; });

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cctype>
 #include <cmath>
 #include <utility>
@@ -157,27 +158,48 @@ Image slice(const TextureFile& texture, const AtlasCut& cut, int index) {
   return texture.images[static_cast<std::size_t>(index)];
 }
 
+bool is_retarget(const TextureFile& texture) {
+  return texture.metadata && texture.metadata->kind.starts_with("retarget-");
+}
+
+int motion_range(const TextureFile& texture) {
+  if (!texture.metadata || texture.metadata->kind != "retarget-atlas") return 0;
+  const AtlasCut cut = guess_cut(texture);
+  const bool whole = cut.columns == cut.rows && cut.columns % 2 == 1 &&
+                     cut.count() == static_cast<int>(texture.metadata->tiles.size());
+  return whole ? cut.columns / 2 : 0;
+}
+
 bool holds_moves(const TextureFile& texture) {
-  return texture.metadata && texture.metadata->kind.starts_with("retarget-") &&
-         texture.metadata->facts.get<int>("radius") && texture.images[0].type == SampleType::u8 &&
-         texture.images[0].channels >= 2;
+  return is_retarget(texture) && texture.metadata->facts.get<int>("radius") &&
+         texture.images[0].type == SampleType::u8 && texture.images[0].channels >= 2;
+}
+
+RetargetOptions move_options(const TextureFile& texture, int index) {
+  const Metadata& m = *texture.metadata;
+  RetargetOptions options{.radius = m.facts.get<int>("radius").value_or(1)};
+  if (static_cast<std::size_t>(index) < m.tiles.size())
+    options.motion = m.tiles[static_cast<std::size_t>(index)].motion;
+  if (m.facts.get<std::string>("reach") == "euclidean") options.reach = Reach::euclidean;
+  return options;
 }
 
 Picture picture_of(const TextureFile& texture, const Section& section) {
   if (section.moves && !section.xz && holds_moves(texture)) {
-    const Metadata& m = *texture.metadata;
-    const auto index = static_cast<std::size_t>(section.index);
-    RetargetOptions options{.radius = *m.facts.get<int>("radius")};
-    if (index < m.tiles.size()) options.motion = m.tiles[index].motion;
-    if (m.facts.get<std::string>("reach") == "euclidean") options.reach = Reach::euclidean;
-    return offset_picture(decode_moves(slice(texture, section.cut, section.index)), options);
+    return offset_picture(decode_moves(slice(texture, section.cut, section.index)),
+                          move_options(texture, section.index));
   }
   const Extent size = slice_size(texture, section.cut);
   const int depth = slice_count(texture, section.cut);
   const int all = std::min(texture.images[0].channels, 4);
-  const int first = section.channel < 0 ? 0 : std::min(section.channel, all - 1);
-  const int count = section.channel < 0 ? all : 1;
+  // One channel is grey; of several all values are kept, and those that are chosen coloured.
+  const bool one = std::has_single_bit(section.channels);
+  const int first = one ? std::min(first_channel(section), all - 1) : 0;
+  const int count = one ? 1 : all;
   Picture picture{.size = section.xz ? Extent{size.width, depth} : size, .channels = count, .values = {}};
+  if (!one) picture.visible = section.channels;
+  const SampleType type = texture.images[0].type;
+  picture.hex_digits = type == SampleType::u8 ? 2 : type == SampleType::u16 ? 4 : 0;
   picture.values.resize(static_cast<std::size_t>(picture.size.area()) * static_cast<std::size_t>(count));
   for (int z = 0; z < (section.xz ? depth : 1); ++z) {
     const Image image = slice(texture, section.cut, section.xz ? z : section.index);

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <bit>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -52,17 +53,27 @@ int slice_count(const TextureFile& texture, const AtlasCut& cut);
 Extent slice_size(const TextureFile& texture, const AtlasCut& cut);
 Image slice(const TextureFile& texture, const AtlasCut& cut, int index);
 
+inline constexpr unsigned kAllChannels = 15;
+
 /// Which samples of a texture are shown.
 struct Section {
   AtlasCut cut;
-  int channel = -1;    ///< -1: all
-  bool moves = false;  ///< of a retarget tile, as hues; channel is not used
-  bool xz = false;     ///< time downwards, at row `index`; else slice `index`
+  unsigned channels = kAllChannels;  ///< bit c: channel c
+  bool moves = false;                ///< of a retarget tile, as hues; channels are not used
+  bool xz = false;                   ///< time downwards, at row `index`; else slice `index`
   int index = 0;
   friend bool operator==(const Section&, const Section&) = default;
 };
+/// The first of the chosen channels: the one that spectrum and figures are of.
+inline int first_channel(const Section& section) { return std::countr_zero(section.channels); }
+/// Whether it says of itself that it holds retarget tiles.
+bool is_retarget(const TextureFile& texture);
+/// Of an atlas with a tile for each motion: its range, as in recipes; else 0.
+int motion_range(const TextureFile& texture);
 /// Whether its samples are a retarget tile's moves.
 bool holds_moves(const TextureFile& texture);
+/// Radius, reach and motion of tile `index` of such a texture.
+RetargetOptions move_options(const TextureFile& texture, int index);
 Picture picture_of(const TextureFile& texture, const Section& section);
 
 /// What is in one channel of the whole stack, or of one slice: spectrum and figures.

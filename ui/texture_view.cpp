@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "ui/app.h"
+#include "ui/flow.h"
 #include "ui/keys.h"
+#include "ui/parameters.h"
 #include "ui/widgets.h"
 
 namespace bn::ui {
@@ -16,12 +18,19 @@ namespace {
 constexpr std::array<const char*, 2> kCuts{"XY", "XZ"};
 constexpr float kNarrowEm = 72.0f;  ///< below this width, the columns on the right become one
 
-/// The channels' names, as many as there are.
-std::vector<const char*> channel_words(int channels) {
-  static constexpr std::array<const char*, 4> kWords{"R", "G", "B", "A"};
-  std::vector<const char*> words{"All"};
-  words.insert(words.end(), kWords.begin(), kWords.begin() + std::min(channels, 4));
-  return words;
+constexpr std::array<const char*, 4> kChannels{"R", "G", "B", "A"};
+
+int shown_channels(const TextureFile& texture) { return std::min(texture.images[0].channels, 4); }
+
+/// "x, y" within `size`. None: it is no such pixel.
+std::optional<Offset> pixel_of(std::string text, Extent size) {
+  std::erase(text, ' ');
+  const std::size_t comma = text.find(',');
+  Offset at{-1, -1};
+  const bool two = comma != std::string::npos && read_number(text.substr(0, comma), at.x) &&
+                   read_number(text.substr(comma + 1), at.y);
+  const bool within = at.x >= 0 && at.y >= 0 && at.x < size.width && at.y < size.height;
+  return two && within ? std::optional(at) : std::nullopt;
 }
 
 }  // namespace
@@ -34,7 +43,9 @@ void TextureView::open(const std::filesystem::path& path) {
 
 void TextureView::parameters(Parameters& p) {
   p("texture.path", path_);
-  p("texture.channel", section_.channel, -1, 3);
+  int channels = static_cast<int>(section_.channels);
+  p("texture.channels", channels, 1, static_cast<int>(kAllChannels));
+  section_.channels = static_cast<unsigned>(channels);
   p("texture.moves", section_.moves);
   p("texture.xz", section_.xz);
   p("texture.slice", slice_, 0, 65535);
@@ -52,7 +63,9 @@ void TextureView::take(std::shared_ptr<const TextureFile> texture) {
   texture_ = std::move(texture);
   if (std::exchange(fresh_, false)) {
     section_ = {.cut = guess_cut(*texture_), .moves = true};
-    slice_ = row_ = 0;
+    row_ = 0;
+    // Of an atlas the plain tile, of motion (0, 0), is in the middle.
+    slice_ = motion_range(*texture_) > 0 ? slice_count(*texture_, section_.cut) / 2 : 0;
   }
   if (!fits(*texture_, section_.cut)) section_.cut = guess_cut(*texture_);
   stale_ = true;
@@ -61,6 +74,9 @@ void TextureView::take(std::shared_ptr<const TextureFile> texture) {
   analysed_ = {};
   analysis_.reset();
   verdict_.reset();
+  link_.pinned.reset();
+  go_to_.clear();
+  go_to_refused_ = false;
   spectrum_.clear();
   verifying_.stop();
   if (texture_->metadata) {
@@ -136,7 +152,9 @@ void TextureView::update(App& app) {
   }
   slice_ = std::clamp(slice_, 0, slices - 1);
   row_ = std::clamp(row_, 0, slice_size(*texture_, section_.cut).height - 1);
-  section_.channel = std::min(section_.channel, texture_->images[0].channels - 1);
+  const unsigned there = (1u << shown_channels(*texture_)) - 1;
+  section_.channels &= there;
+  if (section_.channels == 0) section_.channels = there;
   section_.index = section_.xz ? row_ : slice_;
   try {
     update_picture();
@@ -147,8 +165,10 @@ void TextureView::update(App& app) {
 }
 
 void TextureView::update_analysis() {
+  // Moves are no noise: neither a spectrum nor figures of their bytes mean anything.
+  if (is_retarget(*texture_)) return;
   const bool volume = whole_stack_ && slice_count(*texture_, section_.cut) > 1;
-  const AnalysisKey wanted{section_.cut, std::max(section_.channel, 0), volume ? -1 : slice_};
+  const AnalysisKey wanted{section_.cut, first_channel(section_), volume ? -1 : slice_};
   if (wanted == analysed_ || (playing_ && !volume)) return;
   analysed_ = wanted;
   analysing_.start([texture = texture_, wanted](const Execution& execution) {
@@ -160,15 +180,17 @@ void TextureView::draw(App& app) {
   update(app);
   if (!texture_) {
     begin_panel("empty");
-    const ImVec2 room = ImGui::GetContentRegionAvail();
-    ImGui::SetCursorPosY(room.y * 0.4f);
-    note(loading_.running() ? "Reading …" : "Drop a texture here, an atlas, or a folder of slices.");
+    begin_centred("what to do", "No texture yet");
+    note(loading_.running()
+             ? "Reading …"
+             : "Drop a texture here: a mask, a retarget tile or atlas, a volume, a folder of slices.");
     if (button("Open a texture …")) app.ask_open();
+    end_centred();
     end_panel();
     return;
   }
-  if (shortcut("space") && slice_count(*texture_, section_.cut) > 1) playing_ = !playing_;
-  if (shortcut("f")) link_.fit();
+  const bool stack = slice_count(*texture_, section_.cut) > 1 && motion_range(*texture_) == 0;
+  if (shortcut("space") && stack) playing_ = !playing_;
 
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float gap = ImGui::GetStyle().ItemSpacing.x;
@@ -187,37 +209,39 @@ void TextureView::draw(App& app) {
     ImGui::SameLine();
   }
   begin_panel("facts", {0, 0});
-  draw_facts(app);
+  // Pictures before figures, and a glimpse of the figures, to tell that there is more.
   if (narrow) {
-    heading("Spectrum");
-    draw_spectrum({ImGui::GetContentRegionAvail().x, em(26)});
+    const ImVec2 rest = ImGui::GetContentRegionAvail();
+    draw_spectrum({rest.x, std::max(em(18), rest.y - em(3))});
   }
+  draw_facts(app);
   end_panel();
 }
 
 void TextureView::draw_picture(ImVec2 size) {
   const float top = ImGui::GetCursorPosY();
   draw_link_controls(link_);
+  draw_pixel_controls();
   draw_section_controls();
   const float controls = ImGui::GetCursorPosY() - top;
-  const float range = picture_.has_range() ? em(3.2f) : 0.0f;
-  picture_.draw("Picture", link_, {size.x, size.y - controls - range - ImGui::GetStyle().ItemSpacing.y});
-  picture_.draw_range("Range", range);
+  const bool has_range = picture_.has_range();
+  const float gap = ImGui::GetStyle().ItemSpacing.y, histogram = has_range ? em(3.2f) : 0.0f;
+  const float fields = has_range ? ImGui::GetFrameHeightWithSpacing() + gap : 0.0f;
+  picture_.draw("Picture", link_, {size.x, size.y - controls - histogram - fields - gap});
+  picture_.draw_range("Range", histogram);
+  set_label_width(0);
+  picture_.draw_range_fields();
+  set_label_width(8);
 }
 
 void TextureView::draw_section_controls() {
   set_label_width(0);
-  const Image& first = texture_->images[0];
-  if (first.channels > 1) {
-    // "Moves" comes first where there are any.
-    const bool moves = holds_moves(*texture_);
-    auto words = channel_words(first.channels);
-    if (moves) words.insert(words.begin(), "Moves");
-    int shown = moves && section_.moves ? 0 : section_.channel + (moves ? 2 : 1);
-    if (choice("Channel", words, shown)) {
-      section_.moves = moves && shown == 0;
-      if (!section_.moves) section_.channel = shown - (moves ? 2 : 1);
-    }
+  draw_channel_buttons();
+  if (motion_range(*texture_) > 0) {
+    set_label_width(5);
+    draw_motion_controls();
+    set_label_width(8);
+    return;
   }
   const int slices = slice_count(*texture_, section_.cut);
   if (slices > 1) {
@@ -236,27 +260,91 @@ void TextureView::draw_section_controls() {
   set_label_width(8);
 }
 
+void TextureView::draw_pixel_controls() {
+  if (picture_.picture()->hex_digits > 0) {
+    flow(em(5), em(1));
+    checkbox("Hex", link_.hex, "Values as hexadecimal numbers");
+  }
+  flow(em(11), em(1));
+  set_label_width(0);
+  const Extent size = picture_.picture()->size;
+  if (field("Go to", go_to_, "A pixel: x, y. It is pinned; empty: none is")) {
+    const auto pixel = pixel_of(go_to_, size);
+    go_to_refused_ = !pixel && !go_to_.empty();
+    if (pixel) {
+      link_.go_to(*pixel, size);
+    } else if (go_to_.empty()) {
+      link_.pinned.reset();
+    }
+  }
+  if (go_to_refused_)
+    complaint("No such pixel",
+              fmt::format("A pixel is \"x, y\", 0..{} and 0..{}.", size.width - 1, size.height - 1));
+}
+
+void TextureView::draw_channel_buttons() {
+  const int count = shown_channels(*texture_);
+  if (count < 2) return;
+  const unsigned there = (1u << count) - 1;
+  const bool has_moves = holds_moves(*texture_), moves = has_moves && section_.moves;
+  bool first = true;
+  const auto word = [&](const char* name, bool on, const char* hint) {
+    ImGui::SameLine(0, std::exchange(first, false) ? em(0.6f) : 1.0f);
+    const bool clicked = toggle(name, on, hint);
+    items::record(fmt::format("Channel: {}", name), on ? "on" : "off");
+    return clicked;
+  };
+  ImGui::AlignTextToFramePadding();
+  note("Channel");
+  if (has_moves && word("Moves", moves, "As hues: where each seed goes")) section_.moves = true;
+  if (word("All", !moves && section_.channels == there, "All channels, each in its colour"))
+    section_.moves = false, section_.channels = there;
+  for (int c = 0; c < count; ++c) {
+    const unsigned bit = 1u << c;
+    const bool on = !moves && section_.channels != there && (section_.channels & bit) != 0;
+    if (!word(kChannels[static_cast<std::size_t>(c)], on,
+              "This channel in grey; with Ctrl to or from others"))
+      continue;
+    const bool adds = ImGui::GetIO().KeyCtrl && !moves && section_.channels != there;
+    const unsigned wanted = adds ? section_.channels ^ bit : bit;
+    section_.moves = false;
+    if (wanted != 0) section_.channels = wanted;
+  }
+}
+
+std::string TextureView::channel_text() const {
+  if (shown_channels(*texture_) < 2) return "";
+  return fmt::format("of channel {}", kChannels[static_cast<std::size_t>(first_channel(section_))]);
+}
+
 void TextureView::draw_spectrum(ImVec2 size) {
+  if (is_retarget(*texture_)) return draw_moves(size);
   set_label_width(0);
   if (slice_count(*texture_, section_.cut) > 1) {
     int which = whole_stack_ ? 0 : 1;
     constexpr std::array<const char*, 2> kWords{"All slices", "This one"};
     if (choice("Spectrum of", kWords, which)) whole_stack_ = which == 0;
   }
+  if (const std::string of = channel_text(); !of.empty()) {
+    note("Spectrum " + of);
+    items::record("Spectrum of channel", of);
+  }
   set_label_width(8);
   const float side = std::min(size.x, size.y * 0.55f);
   spectrum_.draw("Spectrum", spectrum_link_, {size.x, side});
   if (analysis_) {
     Figure figure{.title = "Power",
-                  .x = {.name = "cycles/pixel", .low = 0.0, .high = 0.71},
+                  .x = {.name = analysis_->time.power.empty() ? "cycles/pixel" : "cycles/pixel, cycles/frame",
+                        .low = 0.0,
+                        .high = 0.71},
                   .y = {.name = "power", .logarithmic = true}};
-    figure.curves.push_back({.name = "in space",
-                             .colour = palette().series[0],
+    figure.curves.push_back({.name = analysis_->time.power.empty() ? "in space" : "in a slice (mean)",
+                             .colour = curve_colour(0),
                              .x = analysis_->radial.frequency,
                              .y = analysis_->radial.power});
     if (!analysis_->time.power.empty()) {
       figure.curves.push_back({.name = "in time",
-                               .colour = palette().series[1],
+                               .colour = curve_colour(1),
                                .x = analysis_->time.frequency,
                                .y = analysis_->time.power});
     }

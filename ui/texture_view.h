@@ -9,6 +9,7 @@
 
 #include "bn/bake.h"
 #include "ui/image_view.h"
+#include "ui/move_legend.h"
 #include "ui/plot.h"
 #include "ui/task.h"
 #include "ui/texture_file.h"
@@ -40,7 +41,14 @@ class TextureView {
 
   void draw_picture(ImVec2 size);
   void draw_section_controls();
+  void draw_pixel_controls();
+  void draw_channel_buttons();
   void draw_spectrum(ImVec2 size);
+  /// "of channel R" where there are several; else empty.
+  std::string channel_text() const;
+  // In texture_moves.cpp.
+  void draw_motion_controls();
+  void draw_moves(ImVec2 size);
   // In texture_facts.cpp.
   void draw_facts(App& app);
   void draw_verdict();
@@ -63,6 +71,8 @@ class TextureView {
   bool stale_ = true;
   bool playing_ = false;
   double since_slice_s_ = 0.0;
+  std::string go_to_;  ///< "x, y", as the user writes it
+  bool go_to_refused_ = false;
 
   struct AnalysisKey {
     AtlasCut cut;
@@ -74,9 +84,10 @@ class TextureView {
   std::optional<std::vector<VerifyItem>> verdict_;
 
   ImageView picture_, spectrum_;
+  MoveLegend legend_;
   ViewLink link_, spectrum_link_;
-  Plot plot_;
-  PlotLink plot_link_;
+  Plot plot_, energy_map_;
+  PlotLink plot_link_, energy_link_;
   Task<std::shared_ptr<const TextureFile>> loading_;
   Task<std::shared_ptr<const Picture>> cutting_;
   Task<TextureAnalysis> analysing_;

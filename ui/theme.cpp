@@ -11,31 +11,27 @@ constexpr ImU32 rgb(unsigned hex, unsigned alpha = 255) {
   return IM_COL32((hex >> 16) & 255, (hex >> 8) & 255, hex & 255, alpha);
 }
 
-constexpr Palette kDark{
-    .background = rgb(0x15171b),
-    .panel = rgb(0x1c1f25),
-    .frame = rgb(0x292d36),
-    .line = rgb(0x363b46),
-    .text = rgb(0xdfe2e8),
-    .dim_text = rgb(0x969eac),
-    .accent = rgb(0x5aa2e0),
-    .good = rgb(0x6cc08b),
-    .bad = rgb(0xef7f73),
-    .warn = rgb(0xe3b45c),
-    .series = {rgb(0x56b4e9), rgb(0xe69f00), rgb(0x2fbf93), rgb(0xcc79a7), rgb(0xf0e442), rgb(0xd8763a)}};
+constexpr Palette kDark{.background = rgb(0x15171b),
+                        .panel = rgb(0x1c1f25),
+                        .frame = rgb(0x292d36),
+                        .line = rgb(0x363b46),
+                        .text = rgb(0xdfe2e8),
+                        .dim_text = rgb(0x969eac),
+                        .accent = rgb(0x5aa2e0),
+                        .good = rgb(0x6cc08b),
+                        .bad = rgb(0xef7f73),
+                        .warn = rgb(0xe3b45c)};
 
-constexpr Palette kLight{
-    .background = rgb(0xf1f1ee),
-    .panel = rgb(0xfbfbf9),
-    .frame = rgb(0xe5e6e3),
-    .line = rgb(0xcfd1ce),
-    .text = rgb(0x1f242c),
-    .dim_text = rgb(0x5d6572),
-    .accent = rgb(0x1f6fb5),
-    .good = rgb(0x1f7f46),
-    .bad = rgb(0xbb3328),
-    .warn = rgb(0x946200),
-    .series = {rgb(0x0072b2), rgb(0xc98500), rgb(0x009e73), rgb(0xb0568a), rgb(0x8a8300), rgb(0xd55e00)}};
+constexpr Palette kLight{.background = rgb(0xf1f1ee),
+                         .panel = rgb(0xfbfbf9),
+                         .frame = rgb(0xe5e6e3),
+                         .line = rgb(0xcfd1ce),
+                         .text = rgb(0x1f242c),
+                         .dim_text = rgb(0x5d6572),
+                         .accent = rgb(0x1f6fb5),
+                         .good = rgb(0x1f7f46),
+                         .bad = rgb(0xbb3328),
+                         .warn = rgb(0x946200)};
 
 const Palette* current = &kDark;
 ImFont* mono = nullptr;
@@ -130,6 +126,19 @@ ImFont* add_font(const char* file, float pixels) {
 }  // namespace
 
 const Palette& palette() { return *current; }
+
+ImU32 curve_colour(int number) {
+  const auto& colours = is_dark() ? kDarkCurvePalette : kCurvePalette;
+  return screen_colour(colours[static_cast<std::size_t>(number) % colours.size()]);
+}
+
+ImU32 schedule_colour(std::string_view schedule, int repeat) {
+  constexpr float kPaler[] = {0.0f, 0.35f, 0.6f};
+  const ImU32 full = curve_colour(schedule_colour_number(schedule));
+  return ImGui::ColorConvertFloat4ToU32(
+      mix(full, current->background, kPaler[static_cast<std::size_t>(repeat) % std::size(kPaler)]));
+}
+
 bool is_dark() { return current == &kDark; }
 ImFont* mono_font() { return mono; }
 ImFont* heading_font() { return heading; }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "ui/declared.h"
 #include "ui/flow.h"
 #include "ui/parameters.h"
 
@@ -43,6 +44,82 @@ void wrapped(std::string_view text, ImU32 colour) {
   ImGui::TextUnformatted(text.data(), text.data() + text.size());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+}
+
+/// The number that was typed last, where it was not taken as it is: its widget, and what is said below that.
+struct NotTaken {
+  ImGuiID widget = 0;
+  std::string why;
+} not_taken;
+
+void take_number() {
+  if (not_taken.widget == ImGui::GetID("##value")) not_taken = {};
+}
+
+void refuse_number(std::string why) { not_taken = {ImGui::GetID("##value"), std::move(why)}; }
+
+/// Takes a number that was typed, or the nearest in its range.
+template <class T>
+void judge_number(T& value, T low, T high) {
+  const T typed = value;
+  value = typed >= low && typed <= high ? typed : typed > high ? high : low;  // NaN: the lowest
+  if (typed == value) return take_number();
+  refuse_number(fmt::format("{} is out of range (allowed: {}..{}); it is {} now.", typed, low, high, value));
+}
+
+/// As end_row(); what was not taken is told once the user is done typing.
+void end_number_row(std::string_view hint, bool active) {
+  if (not_taken.widget == ImGui::GetID("##value") && !active) {
+    const std::string why = not_taken.why;
+    end_row(hint);
+    complaint("Not taken", why);
+  } else {
+    end_row(hint);
+  }
+}
+
+std::string printf_text(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+/// A slider by `draw`, with its value on the right, where no knob covers it.
+template <class T, class Shown, class Draw>
+bool track(const char* label, T& value, T low, T high, Shown shown, std::string_view hint, Draw draw) {
+  begin_row(label);
+  const auto width = [&](T number) { return ImGui::CalcTextSize(shown(number).c_str()).x; };
+  const float room = std::max({width(low), width(high), width(value)}) + ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(-room);
+  const bool typing = ImGui::TempInputIsActive(ImGui::GetID("##value"));
+  if (!typing) ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(0, 0, 0, 0));
+  const bool changed = draw();
+  if (!typing) ImGui::PopStyleColor();
+  if (changed) judge_number(value, low, high);
+  items::record(label, shown(value));
+  const bool active = ImGui::IsItemActive();
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::TextUnformatted(shown(value).c_str());
+  end_number_row(hint, active);
+  return changed;
+}
+
+template <class T>
+bool number_field(const char* label, T& value, std::string text, T low, T high, std::string_view hint) {
+  begin_row(label);
+  // While it is held ImGui keeps the text, so a number that is half typed may be anything.
+  if (ImGui::InputText("##value", &text)) {
+    if (T number{}; read_number(text, number)) {
+      value = number;
+      judge_number(value, low, high);
+    } else {
+      refuse_number(fmt::format("\"{}\" is no number; it is {} still.", text, value));
+    }
+  }
+  items::record(label, text);
+  const bool done = ImGui::IsItemDeactivatedAfterEdit();
+  end_number_row(hint, ImGui::IsItemActive());
+  return done;
 }
 
 bool recorded_button(const char* label, bool enabled, std::string_view hint) {
@@ -93,6 +170,15 @@ bool checkbox(const char* label, bool& value, std::string_view hint) {
   return changed;
 }
 
+bool toggle(const char* word, bool on, std::string_view hint) {
+  if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+  if (!on) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
+  const bool clicked = ImGui::Button(word);
+  ImGui::PopStyleColor();
+  tooltip(hint);
+  return clicked;
+}
+
 bool choice(const char* label, std::span<const char* const> words, int& index, std::string_view hint) {
   begin_row(label);
   bool changed = false;
@@ -104,13 +190,10 @@ bool choice(const char* label, std::span<const char* const> words, int& index, s
       ImGui::SetCursorPosX(std::max(left, ImGui::GetCursorPosX()));  // of a new line: below the first word
     }
     const bool chosen = i == index;
-    if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
-    if (!chosen) ImGui::PushStyleColor(ImGuiCol_Text, palette().dim_text);
-    if (ImGui::Button(words[i]) && !chosen) {
+    if (toggle(words[i], chosen) && !chosen) {
       index = i;
       changed = true;
     }
-    ImGui::PopStyleColor();
     items::record(name.empty() ? std::string(words[i]) : fmt::format("{}: {}", name, words[i]),
                   chosen ? "on" : "off");
   }
@@ -139,49 +222,40 @@ bool combo(const char* label, std::span<const std::string> words, int& index, st
 }
 
 bool slider(const char* label, int& value, int low, int high, std::string_view hint) {
-  begin_row(label);
-  const bool changed = ImGui::SliderInt("##value", &value, low, high, "%d", ImGuiSliderFlags_AlwaysClamp);
-  items::record(label, fmt::format("{}", value));
-  end_row(hint);
-  return changed;
+  const auto shown = [](int number) { return fmt::format("{}", number); };
+  return track(label, value, low, high, shown, hint,
+               [&] { return ImGui::SliderInt("##value", &value, low, high, "%d"); });
 }
 
 bool slider(const char* label, double& value, double low, double high, const char* format, bool logarithmic,
             std::string_view hint) {
-  begin_row(label);
-  const auto flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool changed =
-      ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format, flags);
-  if (!std::isfinite(value)) value = low;
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  items::record(label, text);
-  end_row(hint);
-  return changed;
+  const auto shown = [&](double number) { return printf_text(format, number); };
+  return track(label, value, low, high, shown, hint, [&] {
+    const auto flags = logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
+    return ImGui::SliderScalar("##value", ImGuiDataType_Double, &value, &low, &high, format, flags);
+  });
+}
+
+bool slider(const char* label, int& value, const Option& option) {
+  return slider(label, value, static_cast<int>(option.least), static_cast<int>(option.most), hint_of(option));
+}
+
+bool slider(const char* label, double& value, const Option& option, const char* format) {
+  return slider(label, value, option.least_real, option.most_real, format, false, hint_of(option));
+}
+
+bool field(const char* label, std::int64_t& value, const Option& option) {
+  return field(label, value, option.least, option.most, hint_of(option));
 }
 
 bool field(const char* label, std::int64_t& value, std::int64_t low, std::int64_t high,
            std::string_view hint) {
-  begin_row(label);
-  ImGui::InputScalar("##value", ImGuiDataType_S64, &value);
-  items::record(label, fmt::format("{}", value));
-  const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  if (!ImGui::IsItemActive()) value = std::clamp(value, low, high);
-  end_row(hint);
-  return done;
+  return number_field(label, value, fmt::format("{}", value), low, high, hint);
 }
 
 bool field(const char* label, double& value, double low, double high, const char* format,
            std::string_view hint) {
-  begin_row(label);
-  ImGui::InputDouble("##value", &value, 0, 0, format);
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  items::record(label, text);
-  const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  if (!ImGui::IsItemActive()) value = std::isfinite(value) ? std::clamp(value, low, high) : low;
-  end_row(hint);
-  return done;
+  return number_field(label, value, printf_text(format, value), low, high, hint);
 }
 
 bool field(const char* label, std::string& value, std::string_view hint) {
@@ -202,13 +276,17 @@ bool field(const char* label, std::optional<T>& value, std::string_view otherwis
     T number{};
     if (text.empty()) {
       value.reset();
+      take_number();
     } else if (read_number(text, number)) {
       value = number;
+      take_number();
+    } else {
+      refuse_number(fmt::format("\"{}\" is no number of this kind; it is not taken.", text));
     }
   }
   items::record(label, value ? fmt::format("{}", *value) : std::string(otherwise));
   const bool done = ImGui::IsItemDeactivatedAfterEdit();
-  end_row(hint);
+  end_number_row(hint, ImGui::IsItemActive());
   return done;
 }
 template bool field(const char*, std::optional<int>&, std::string_view, std::string_view);
@@ -276,6 +354,17 @@ void progress_bar(const char* label, double share, std::string_view text) {
   ImGui::ProgressBar(static_cast<float>(share), {-FLT_MIN, 0}, std::string(text).c_str());
   items::record(label, text);
 }
+
+void begin_centred(const char* name, const char* title) {
+  const ImVec2 room = ImGui::GetContentRegionAvail();
+  const float width = std::min(room.x, em(30));
+  ImGui::SetCursorPos(
+      {ImGui::GetCursorPosX() + 0.5f * (room.x - width), ImGui::GetCursorPosY() + 0.3f * room.y});
+  ImGui::BeginChild(name, {width, 0}, false, ImGuiWindowFlags_NoBackground);
+  heading(title);
+}
+
+void end_centred() { ImGui::EndChild(); }
 
 bool begin_panel(const char* name, ImVec2 size) {
   return ImGui::BeginChild(name, size, true, ImGuiWindowFlags_AlwaysUseWindowPadding);

@@ -1,7 +1,11 @@
 # Runs that the inspector compared. Before this stands
 #   runs: their names, apart by spaces; trace_NAME.csv has the columns that AnnealTrace::csv() names
 file(i) = "trace_".word(runs, i).".csv"
-style(i) = (i - 1) % 7 + 1
+# A schedule's colour, as everywhere; of its runs the later ones are dashed.
+schedule(i) = (name = word(runs, i), name[strstrt(name, "-")+1:*])
+style(i) = style_of(schedule(i))
+repeat(i) = i < 2 ? 0 : sum [j=1:i-1] (schedule(j) eq schedule(i) ? 1 : 0)
+dash(i) = repeat(i) % 5 + 1
 set xrange [0:*] noextend
 set yrange [*:*] noextend
 set logscale y
@@ -36,7 +40,7 @@ set output figure("energy")
 set title "Energy during the runs"
 set ylabel "energy (logarithmic)"
 set yrange [least_energy/1.1:*] noextend
-plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):4 with lines ls style(i) title word(runs, i), \
+plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):4 with lines ls style(i) dt dash(i) title word(runs, i), \
   for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($6 > 0 ? $6 : NaN) with lines ls 8 title i == 1 ? "proven optimum" : ""
 set yrange [*:*] noextend
 }
@@ -44,11 +48,11 @@ if (largest[3] > 0) {
 set output figure("temperature")
 set title "Temperature during the runs"
 set ylabel "temperature, levels (logarithmic)"
-plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($3 > 0 ? $3 : NaN) with lines ls style(i) title word(runs, i)
+plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($3 > 0 ? $3 : NaN) with lines ls style(i) dt dash(i) title word(runs, i)
 }
 if (largest[7] > 0) {
 set output figure("acceptance")
 set title "Accepted share of all proposals"
 set ylabel "accepted share (logarithmic)"
-plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($7 > 0 ? $7 : NaN) with lines ls style(i) title word(runs, i)
+plot for [i=1:words(runs)] file(i) skip 2 using ($1/scale):($7 > 0 ? $7 : NaN) with lines ls style(i) dt dash(i) title word(runs, i)
 }

@@ -6,6 +6,7 @@
 
 #include "bn/error.h"
 #include "ui/parameters.h"
+#include "ui/recipe_text.h"
 #include "ui/run_settings.h"
 
 namespace bn::ui {
@@ -65,6 +66,17 @@ TEST(Numbers, AreReadWholeOrNotAtAll) {
   EXPECT_EQ(small, -1);
   for (const char* text : {"1e19", "9223372036854775808", "nan"})
     EXPECT_FALSE(read_number(text, count)) << text;
+}
+
+TEST(RecipeText, WrapsCommentsWithinTheirHash) {
+  EXPECT_EQ(wrapped_recipe("# one two three four five six", 16), "# one two three\n# four five six\n");
+  EXPECT_EQ(wrapped_recipe("short = 1\n\nx = 2\n", 16), "short = 1\n\nx = 2\n");
+  EXPECT_EQ(wrapped_recipe("outputs = [\"a.png\", \"b.png\"]", 20),
+            "outputs = [\"a.png\",\n    \"b.png\"]\n");
+  EXPECT_EQ(wrapped_recipe("# " + std::string(20, 'x'), 16),
+            "# " + std::string(14, 'x') + "\n# " + std::string(6, 'x') + "\n");
+  EXPECT_EQ(wrapped_recipe("# ÄÄÄÄÄÄÄÄÄÄÄÄÄÄ", 16), "# ÄÄÄÄÄÄÄÄÄÄÄÄÄÄ\n") << "characters, not bytes";
+  EXPECT_EQ(wrapped_recipe("", 16), "");
 }
 
 TEST(RunSettings, SayWhatARecipeCannot) {

@@ -41,6 +41,15 @@ inline constexpr std::array<Rgb8, 7> kCurvePalette{{{0x00, 0x72, 0xb2},    // bl
                                                     {0x56, 0xb4, 0xe9},    // sky
                                                     {0x88, 0x88, 0x88}}};  // grey
 
+/// The same hues, lighter, for dark pages and windows.
+inline constexpr std::array<Rgb8, 7> kDarkCurvePalette{{{0x56, 0xb4, 0xe9},
+                                                        {0xf0, 0x80, 0x3c},
+                                                        {0x2f, 0xbf, 0x93},
+                                                        {0xd9, 0x94, 0xbb},
+                                                        {0xe6, 0xb8, 0x00},
+                                                        {0xa6, 0xd8, 0xf5},
+                                                        {0x9a, 0xa1, 0xab}}};
+
 /// Which of them a cooling schedule has, wherever it is drawn: exponential blue, kirkpatrick vermilion,
 /// linear green, inverse purple, hajek orange, constant sky, greedy and all other names grey. In gnuplot:
 /// line style number + 1.
