@@ -68,11 +68,6 @@ TEST(ForeignTiff, DoublesAreRefusedAndNotReadAsZeros) {
   expect_error(ErrorCode::invalid_input, [&] { decoded(bytes); });
 }
 
-TEST(ForeignTiff, HalfIsWidenedExactly) {
-  const std::vector<float> samples = {0.0f, -0.5f, 65504.0f, 1.0f};
-  expect_values(decoded(written("tiff", ImageSpec(2, 2, 1, TypeDesc::HALF), samples)), samples);
-}
-
 TEST(ForeignTiff, LayoutsAndCompressions) {
   const Image image = random_image({37, 21}, 3, SampleType::u8);
   const auto samples = samples_of<std::uint8_t>(image);
@@ -185,6 +180,14 @@ TEST(ForeignTiff, SamplesAreAsStoredOrRefusedAlikeAtEveryDepth) {
   }
 }
 
+TEST(ForeignTiff, HalfIsReadAsItIs) {
+  // 0, -0.5, 65504, 1
+  const Image image =
+      decoded(tiff_of({2, 2, 1, 16, kBlackIsZero, true}, {0x00, 0x00, 0x00, 0xb8, 0xff, 0x7b, 0x00, 0x3c}));
+  ASSERT_EQ(image.type, SampleType::f16);
+  expect_values(to_float(image), std::vector<float>{0.0f, -0.5f, 65504.0f, 1.0f});
+}
+
 TEST(ForeignTiff, AChainOfPagesThatGoesRoundIsRefused) {
   const auto error = error_of([&] { decoded(tiff_of({2, 2, 1, 8, kBlackIsZero, false, {8}}, counting(4))); });
   ASSERT_TRUE(error.has_value());
@@ -262,14 +265,14 @@ TEST(ForeignExr, ChannelNamesAreThoseOfTheFile) {
   }
 }
 
-TEST(ForeignExr, HalfIsWidenedExactly) {
+TEST(ForeignExr, HalfIsReadAsItIs) {
   const std::vector<float> samples = {0.0f, -0.5f, 1.0f / 3, 65504.0f, 6e-8f, 1.0f};
   ImageSpec spec(3, 2, 1, TypeDesc::HALF);
   for (const char* compression : {"none", "rle", "zip", "zips", "piz"}) {
     spec.attribute("compression", compression);
     const Image image = decoded(written("openexr", spec, samples));
-    ASSERT_EQ(image.type, SampleType::f32);
-    EXPECT_EQ(samples_of<float>(image),
+    ASSERT_EQ(image.type, SampleType::f16);
+    EXPECT_EQ(samples_of<float>(to_float(image)),
               (std::vector<float>{0.0f, -0.5f, 0.33325195f, 65504.0f, 5.9604645e-8f, 1.0f}));
   }
 }

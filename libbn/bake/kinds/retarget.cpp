@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "bake/kinds/all.h"
@@ -296,6 +297,7 @@ void RetargetEntry::check(const Complain& complain) const {
 
 void RetargetEntry::default_output(std::size_t output) {
   outputs.at(output).kind = motion > 0 ? RetargetOutput::Kind::atlas : RetargetOutput::Kind::tile;
+  outputs.at(output).type.reset();
 }
 
 Options RetargetEntry::output_options(std::size_t output) {
@@ -309,13 +311,26 @@ Options RetargetEntry::output_options(std::size_t output) {
       .only_in_recipes();
   options.choice<MoveForm>("form", file.form, {{"scatter", MoveForm::scatter}, {"gather", MoveForm::gather}},
                            "What a pixel says: where its seed goes, or where its seed comes from.");
+  options
+      .word(
+          "type", {"8bit", "half", "float"},
+          "What the samples of the file are: 8bit holds x + 128 and y + 128, the others x and y.",
+          [this, output] { return Value(std::string(name_of(output_type(output)))); },
+          [&file](const Value& given) {
+            const std::string& word = std::get<std::string>(given);
+            file.type = word == "half" ? SampleType::f16 : word == "float" ? SampleType::f32 : SampleType::u8;
+          })
+      .if_unset("float for .exr, else 8bit")
+      .from_edition(2);
   options.offset("motion", file.motion, -motion, motion, "Of a tile: its motion.")
       .only_in_recipes()
       .only_if([&file] { return file.kind == RetargetOutput::Kind::tile; }, "kind = \"tile\"");
   return options;
 }
 
-SampleType RetargetEntry::output_type(std::size_t output) const { return natural_type(path_of(output)); }
+SampleType RetargetEntry::output_type(std::size_t output) const {
+  return outputs.at(output).type.value_or(natural_type(path_of(output)));
+}
 
 // --- making it -------------------------------------------------------------------------------------
 
@@ -355,9 +370,10 @@ void RetargetEntry::check_inputs(const std::vector<Shape>& shapes, const Complai
 }
 
 int RetargetEntry::output_channels(std::size_t output) const {
-  // DXGI knows no three channels of 8 bit: x and y alone, or the move in a volume and alpha.
-  const bool is_dds = lower_case_extension(outputs.at(output).path) == ".dds";
-  return !is_dds ? 3 : volume ? 4 : 2;
+  // DXGI knows no three channels but floats: x and y alone, or the move in a volume and alpha.
+  const bool has_three =
+      lower_case_extension(outputs.at(output).path) != ".dds" || output_type(output) == SampleType::f32;
+  return has_three ? 3 : volume ? 4 : 2;
 }
 
 int RetargetEntry::output_depth(std::size_t, const std::vector<Shape>& input_shapes) const {
@@ -442,18 +458,21 @@ void require_energy(const RetargetEntry& entry, const Source& source, const Made
   if (options.motion == Offset{0, 0}) made.facts.add("recomputed_energy", recomputed);
 }
 
-/// The 8 bit image with fewer channels, or with an opaque one more.
+/// The 8 bit or half image with fewer channels, or with an opaque one more.
 Image with_channels(Image image, int channels) {
   if (channels == image.channels) return image;
+  constexpr std::uint16_t kHalfOne = 0x3c00;
   Image result{
       .size = image.size, .depth = image.depth, .channels = channels, .type = image.type, .samples = {}};
+  const std::size_t sample = bytes_per_sample(image.type),
+                    from = sample * static_cast<std::size_t>(image.channels),
+                    to = sample * static_cast<std::size_t>(channels);
   const auto pixels = static_cast<std::size_t>(image.shape().count());
-  result.samples.assign(pixels * static_cast<std::size_t>(channels), std::byte{255});
+  result.samples.assign(pixels * to, std::byte{255});
   for (std::size_t i = 0; i < pixels; ++i) {
-    std::copy_n(
-        image.samples.begin() + static_cast<std::ptrdiff_t>(i * static_cast<std::size_t>(image.channels)),
-        std::min(channels, image.channels),
-        result.samples.begin() + static_cast<std::ptrdiff_t>(i * static_cast<std::size_t>(channels)));
+    std::byte* const pixel = result.samples.data() + i * to;
+    std::memcpy(pixel, image.samples.data() + i * from, std::min(from, to));
+    if (to > from && image.type == SampleType::f16) std::memcpy(pixel + from, &kHalfOne, sample);
   }
   return result;
 }
@@ -564,8 +583,9 @@ Made RetargetEntry::made_elsewhere(const std::vector<Input>& inputs, const Retar
   if (source.moves()) made.facts.add("orbit_length", orbit_length(source.size(), options.step));
   made.tiles = {record_of(tile, options.motion)};
   made.notes = source_notes(source, options);
-  const Image moves =
-      encode_moves(output.form == MoveForm::scatter ? tile.move : invert_moves(tile.move), output_type(0));
+  const Image moves = with_channels(
+      encode_moves(output.form == MoveForm::scatter ? tile.move : invert_moves(tile.move), output_type(0)),
+      output_channels(0));
   made.picture = [moves, tiles = made.tiles](std::size_t) { return Picture{.image = moves, .tiles = tiles}; };
   return made;
 }
