@@ -44,9 +44,13 @@ std::string_view verdict_of(const SpectrumRow& row) {
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3g}", value); }
 std::string score(double value) { return std::isnan(value) ? "-" : fmt::format("{:.0f}", value); }
 
+std::string channel_of(const SpectrumRow& row) {
+  return row.channel_name.empty() ? std::to_string(row.channel) : row.channel_name;
+}
+
 /// "rgba.png:2"; of a name that is too long for its column the end.
 std::string short_name(const SpectrumRow& row, std::size_t width) {
-  const std::string name = row.only_channel ? row.file : fmt::format("{}:{}", row.file, row.channel);
+  const std::string name = row.only_channel ? row.file : fmt::format("{}:{}", row.file, channel_of(row));
   return name.size() <= width ? name : "..." + name.substr(name.size() - width + 3);
 }
 
@@ -206,7 +210,7 @@ std::string pairs_in_words(const SpectrumResult& result) {
     std::string relations;
     for (const ChannelPair* pair : related) {
       if (pair->file == file)
-        relations += wrapped(fmt::format("channel {} {}", pair->second, pair->relation), 6);
+        relations += wrapped(fmt::format("channel {} {}", pair->second_label, pair->relation), 6);
     }
     text += fmt::format("{:<5} {}\n", relations.empty() ? "" : result.check ? "FAIL" : "note", file);
     if (!relations.empty()) {
@@ -271,7 +275,7 @@ void add_judgement(const SpectrumRow& row, Json& json) {
 }  // namespace
 
 std::string SpectrumRow::name() const {
-  return only_channel ? file : fmt::format("{}, channel {}", file, channel);
+  return only_channel ? file : fmt::format("{}, channel {}", file, channel_of(*this));
 }
 
 std::string to_text(const SpectrumResult& result) {
@@ -298,6 +302,7 @@ Json to_json(const SpectrumResult& result) {
             {"notes", result.notes}};
   for (const SpectrumRow& row : result.rows) {
     Json item{{"file", row.file}, {"channel", row.channel}};
+    if (!row.channel_name.empty()) item["channel_name"] = row.channel_name;
     item.update(Json::parse(bn::to_json(row.figures)));
     item["grade"] = to_json(row.grade);
     if (!row.set_aside.empty()) item["set_aside"] = row.set_aside;
@@ -337,7 +342,7 @@ std::vector<std::string> failures_of(const SpectrumResult& result) {
     if (reasons.size() > 1) failures.back() += fmt::format(" (and {} more)", reasons.size() - 1);
   }
   for (const ChannelPair* pair : related_pairs(result)) {
-    failures.push_back(fmt::format("{}: channel {} {}", pair->file, pair->second, pair->relation));
+    failures.push_back(fmt::format("{}: channel {} {}", pair->file, pair->second_label, pair->relation));
   }
   return failures;
 }

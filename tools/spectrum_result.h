@@ -16,6 +16,7 @@ namespace bn::tools {
 struct SpectrumRow {
   std::string file;  ///< or "average"
   int channel = 0;
+  std::string channel_name = {};  ///< "Z" where the file names its channels; else empty
   bool only_channel = true;
   FiguresOfMerit figures;
   Grade grade;
@@ -30,6 +31,7 @@ struct SpectrumRow {
 struct ChannelPair {
   std::string file;
   int first = 0, second = 0;
+  std::string second_label;  ///< its name, or its number
   CrossSpectrum cross;
   std::string relation;  ///< what they have in common; empty: independent, or too small to tell
 };

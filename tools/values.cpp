@@ -64,7 +64,7 @@ ValueKind<std::filesystem::path> path(std::string placeholder, Completion comple
           .allowed = "",
           .parse =
               [](std::string_view text, std::string_view where) {
-                if (text.empty()) fail(text, where, "names no file or folder", "a path that is not empty");
+                check_path_word(text, where);
                 return std::filesystem::path(text);
               },
           .show = [](const std::filesystem::path& value) { return value.string(); },
@@ -224,6 +224,24 @@ ValueKind<std::uint64_t> memory_size() {
                 while (unit < 3 && (bytes >> (10 * (unit + 2))) << (10 * (unit + 2)) == bytes) ++unit;
                 return fmt::format("{}{}", bytes >> (10 * (unit + 1)), kUnits[unit]);
               }};
+}
+
+void check_path_word(std::string_view text, std::string_view where) {
+  if (text.empty()) fail(text, where, "names no file or folder", "a path that is not empty");
+  if (text == "-") {
+    fail(text, where, "means standard input or output, and bn reads and writes files only", "a path",
+         "name a file, one called - by ./-");
+  }
+}
+
+ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string> suggestions) {
+  ValueKind<std::string> kind;
+  kind.placeholder = std::move(placeholder);
+  if (!suggestions.empty()) kind.completion = Completion::file;
+  kind.choices = std::move(suggestions);
+  kind.parse = [](std::string_view text, std::string_view) { return std::string(text); };
+  kind.show = [](const std::string& text) { return text; };
+  return kind;
 }
 
 ValueKind<std::filesystem::path> file_path() { return path("FILE", Completion::file); }

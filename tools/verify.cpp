@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bn/error.h"
+#include "tools/entry_arguments.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 
@@ -14,6 +15,7 @@ namespace {
 struct Settings {
   std::filesystem::path path;
   ForeignTile foreign;
+  EntryArguments retarget{*find_kind("retarget")};  ///< of the tile of another program
   std::optional<Offset> step, motion;
   bool json = false;
 };
@@ -49,7 +51,13 @@ std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
     }
     return verify_path(settings.path, session.execution_showing("verify"));
   }
+  const auto& like = static_cast<const RetargetEntry&>(settings.retarget.with_output(settings.path.string()));
   settings.foreign.tile = settings.path;
+  settings.foreign.to = like.to;
+  settings.foreign.channel = like.channel;
+  settings.foreign.form = like.outputs.front().form;
+  settings.foreign.metric = like.problem.metric;
+  settings.foreign.reach = like.problem.reach;
   if (!settings.step && settings.foreign.to.empty()) {
     throw Error({.code = ErrorCode::usage,
                  .what = "is missing",
@@ -108,17 +116,13 @@ void throw_if_failed(const std::vector<VerifyItem>& items, std::int64_t failed, 
 }
 
 void declare_foreign(Arguments& arguments, Settings& settings) {
-  constexpr const char* kGroup = "For a retarget tile of another program";
+  constexpr const char* kHeading = "For a retarget tile of another program";
   ForeignTile& tile = settings.foreign;
-  const auto group = [&] { arguments.in_group(kGroup); };
+  const auto group = [&] { arguments.in_group(kHeading); };
   arguments.option("--mask", tile.mask, file_path(),
                    "The mask that the tile is for: measure the tile on it.");
   group();
-  arguments.option("--to", tile.to, file_path(),
-                   "The mask of the next frame, where it is not --mask moved by the step.");
-  group();
-  arguments.option("--channel", tile.channel, integer_in(0, 63), "The channel of the mask, 0 for red.");
-  group();
+  settings.retarget.declare_some(arguments, {"to", "channel"}, kHeading);
   arguments.option("--step", settings.step, offset(), "How far the mask moves from frame to frame.");
   group();
   arguments.option("--motion", settings.motion, offset(), "The motion that the tile is for.");
@@ -126,17 +130,7 @@ void declare_foreign(Arguments& arguments, Settings& settings) {
   arguments.option("--encoding", tile.zero_level, encoding(),
                    "What was added to a move before it was stored.");
   group();
-  arguments.option("--form", tile.form,
-                   choice_of<MoveForm>({{"scatter", MoveForm::scatter}, {"gather", MoveForm::gather}}),
-                   "What a pixel says: where its seed goes, or where its seed comes from.");
-  group();
-  arguments.option("--metric", tile.metric, choice_of<Metric>({{"l1", Metric::l1}, {"l2", Metric::l2}}),
-                   "Cost of a difference of levels: its size or its square.");
-  group();
-  arguments.option("--reach", tile.reach,
-                   choice_of<Reach>({{"chebyshev", Reach::chebyshev}, {"euclidean", Reach::euclidean}}),
-                   "How the length of a move is measured.");
-  group();
+  settings.retarget.declare_some(arguments, {"form", "metric", "reach"}, kHeading);
   arguments.option("--radius", tile.radius, integer_in(0, 32),
                    "What no move may pass; 0: the farthest move that the tile has.");
   group();
@@ -165,12 +159,7 @@ Verb verify_verb() {
       "With --mask the file is a retarget tile that another program made: whether it is a bijection, how far "
       "it "
       "moves, its energy, and how far that is above the proven optimum.";
-  verb.arguments.positional("PATH", settings->path,
-                            {.placeholder = "",
-                             .allowed = "",
-                             .parse = file_path().parse,
-                             .show = {},
-                             .completion = Completion::file},
+  verb.arguments.positional("PATH", settings->path, file_path(),
                             "A file, or a folder with everything below it.");
   verb.arguments.flag("--json", settings->json, true, "Print the verdicts as JSON.");
   declare_foreign(verb.arguments, *settings);
