@@ -8,6 +8,7 @@
 #include "bn/error.h"
 #include "bn/volume.h"
 #include "tools/channel.h"
+#include "tools/keep_inputs.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 
@@ -114,6 +115,8 @@ void run(const Settings& settings, Session& session) {
   const Channels channels = channels_of(settings, files);
   const Image& first = *channels.refs.front().image;
   const VolumeOutput output{.slices = settings.slices, .atlas = {}};
+  for (const ChannelSource& source : settings.sources)
+    check_keeps(settings.out, "--out", std::span(&source.path, 1));
   // Before the samples are copied: what the format cannot hold.
   check_volume_writable(settings.out, first.shape(), first.type, static_cast<int>(channels.refs.size()),
                         output);

@@ -14,6 +14,7 @@
 
 #include "bn/error.h"
 #include "bn/volume.h"
+#include "tools/keep_inputs.h"
 #include "tools/spectrum_analyst.h"
 #include "tools/verb.h"
 
@@ -105,7 +106,10 @@ void throw_the_worst(const SpectrumResult& result) {
 }
 
 void run(const Settings& settings, Session& session) {
-  if (!settings.png.empty()) check_writable(settings.png, SampleType::u8, 1);
+  if (!settings.png.empty()) {
+    check_writable(settings.png, SampleType::u8, 1);
+    check_keeps(settings.png, "--png", settings.files);
+  }
   if (!settings.csv.empty()) check_text_writable(settings.csv);
   SpectrumResult result{.check = settings.spectrum.check,
                         .rows = {},
@@ -193,9 +197,9 @@ Verb spectrum_verb() {
   verb.arguments.flag("--volume", settings->volume, true,
                       "Each folder, or all files together, is one volume of slices.");
   verb.arguments.option(
-      "--png", settings->png, file_path(),
+      "--png", settings->png, texture_path(),
       "Write the spectrum (of the average) as a picture: DC in the middle, -50 to +12.5 dB.");
-  verb.arguments.option("--csv", settings->csv, file_path(), "Write power and anisotropy by frequency.");
+  verb.arguments.option("--csv", settings->csv, text_path(), "Write power and anisotropy by frequency.");
   verb.arguments.flag("--json", settings->json, true, "Print JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;

@@ -245,6 +245,19 @@ ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string
 }
 
 ValueKind<std::filesystem::path> file_path() { return path("FILE", Completion::file); }
+ValueKind<std::filesystem::path> text_path() {
+  ValueKind<std::filesystem::path> kind = file_path();
+  kind.parse = [parse = kind.parse](std::string_view text, std::string_view where) {
+    std::filesystem::path path = parse(text, where);
+    try {
+      check_extension(path);
+    } catch (const Error&) {
+      return path;
+    }
+    fail(text, where, "names a texture, and text is written there", "another extension");
+  };
+  return kind;
+}
 ValueKind<std::filesystem::path> texture_path() {
   ValueKind<std::filesystem::path> kind = file_path();
   kind.parse = [parse = kind.parse](std::string_view text, std::string_view where) {

@@ -53,6 +53,8 @@ ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string
 /// Throws usage: no name, or "-" for a standard stream.
 void check_path_word(std::string_view text, std::string_view where);
 ValueKind<std::filesystem::path> file_path();
+/// Text to be written: refuses names of textures, which a slip of the keys would replace.
+ValueKind<std::filesystem::path> text_path();
 /// A texture to be written: its extension must name a format.
 ValueKind<std::filesystem::path> texture_path();
 ValueKind<std::filesystem::path> folder_path();

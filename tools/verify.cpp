@@ -13,7 +13,7 @@ namespace bn::tools {
 namespace {
 
 struct Settings {
-  std::filesystem::path path;
+  std::vector<std::filesystem::path> paths;
   ForeignTile foreign;
   EntryArguments retarget{*find_kind("retarget")};  ///< of the tile of another program
   std::optional<Offset> step, motion;
@@ -49,10 +49,23 @@ std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
                    .limit = "only with --mask",
                    .remedy = "name the mask of a tile that another program made"});
     }
-    return verify_path(settings.path, session.execution_showing("verify"));
+    std::vector<VerifyItem> items;
+    for (const auto& path : settings.paths) {
+      const auto found = verify_path(path, session.execution_showing("verify"));
+      items.insert(items.end(), found.begin(), found.end());
+    }
+    return items;
   }
-  const auto& like = static_cast<const RetargetEntry&>(settings.retarget.with_output(settings.path.string()));
-  settings.foreign.tile = settings.path;
+  const std::filesystem::path& tile = settings.paths.front();
+  if (settings.paths.size() > 1) {
+    throw Error({.code = ErrorCode::usage,
+                 .what = fmt::format("given with {} files", settings.paths.size()),
+                 .where = "--mask",
+                 .limit = "one retarget tile",
+                 .remedy = "measure them one by one"});
+  }
+  const auto& like = static_cast<const RetargetEntry&>(settings.retarget.with_output(tile.string()));
+  settings.foreign.tile = tile;
   settings.foreign.to = like.to;
   settings.foreign.channel = like.channel;
   settings.foreign.form = like.outputs.front().form;
@@ -73,11 +86,15 @@ std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
 void print(const std::vector<VerifyItem>& items, std::int64_t failed, const Settings& settings,
            Session& session) {
   if (settings.json) {
-    Json result{{"path", settings.path.string()},
+    Json result{{"path", settings.paths.front().string()},
                 {"pass", failed == 0},
                 {"checked", items.size()},
                 {"failed", failed},
                 {"items", Json::array()}};
+    if (settings.paths.size() > 1) {
+      result.erase("path");
+      for (const auto& path : settings.paths) result["paths"].push_back(path.string());
+    }
     for (const auto& item : items) result["items"].push_back(to_json(item));
     return session.output.write_result(result, true);
   }
@@ -95,24 +112,28 @@ void print(const std::vector<VerifyItem>& items, std::int64_t failed, const Sett
 /// Files of others are a question that this verb does not answer, which is no failed verification.
 void throw_if_failed(const std::vector<VerifyItem>& items, std::int64_t failed, const Settings& settings) {
   if (failed == 0) return;
+  const std::string where = settings.paths.size() == 1 ? settings.paths.front().string()
+                                                       : fmt::format("{} paths", settings.paths.size());
   const auto count = [&](auto property) { return std::count_if(items.begin(), items.end(), property); };
   const auto foreign = count([](const auto& item) { return item.check == "foreign"; });
   if (foreign == static_cast<std::int64_t>(items.size())) {
     throw Error({.code = ErrorCode::invalid_input,
                  .what = "nothing here was written by bn, so it claims nothing to verify",
-                 .where = settings.path.string(),
+                 .where = where,
                  .limit = "",
                  .remedy =
                      "bn spectrum --check judges masks of others, bn verify TILE --mask MASK --step X,Y "
                      "their retarget tiles"});
   }
+  const auto sources = count([](const auto& item) { return item.check == "source" && !item.pass; });
   throw Error({.code = ErrorCode::verification_failed,
                .what = fmt::format("{} of {} checks failed", failed, items.size()),
-               .where = settings.path.string(),
+               .where = where,
                .limit = "",
                .remedy = !settings.foreign.mask.empty() ? ""
                          : foreign == failed            ? "take the files of others out of the folder"
-                                                        : "bake what failed again"});
+                         : sources == failed ? "put the mask where the tile names it, or bake the tile again"
+                                             : "bake what failed again"});
 }
 
 void declare_foreign(Arguments& arguments, Settings& settings) {
@@ -142,7 +163,7 @@ Verb verify_verb() {
   const auto settings = std::make_shared<Settings>();
   Verb verb;
   verb.name = "verify";
-  verb.summary = "Recompute every figure a file or a folder of files claims.";
+  verb.summary = "Recompute every figure that files and folders of files claim.";
   verb.examples = {{"bn verify out", "every texture of a bake, and its manifest"},
                    {"bn verify tile.png", "one file: bijection, radius, energy, bound, hash"},
                    {"bn verify out --json", "the verdicts for a program"},
@@ -159,8 +180,8 @@ Verb verify_verb() {
       "With --mask the file is a retarget tile that another program made: whether it is a bijection, how far "
       "it "
       "moves, its energy, and how far that is above the proven optimum.";
-  verb.arguments.positional("PATH", settings->path, file_path(),
-                            "A file, or a folder with everything below it.");
+  verb.arguments.positional_list("PATH", settings->paths, file_path(),
+                                 "Files, and folders with everything below them.");
   verb.arguments.flag("--json", settings->json, true, "Print the verdicts as JSON.");
   declare_foreign(verb.arguments, *settings);
   verb.run = [settings](Session& session) {

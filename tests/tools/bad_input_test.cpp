@@ -176,6 +176,21 @@ TEST_F(BadInput, AnOutputThatIsItsOwnSource) {
   EXPECT_EQ(read_bytes(scratch_ / "mask.png"), before);
 }
 
+TEST_F(BadInput, NoVerbReplacesWhatItReads) {
+  write("mask.png", simple_mask(16));
+  const std::string before = read_bytes(scratch_ / "mask.png");
+  expect_failure(3, {"spectrum", "mask.png", "--png", "mask.png"}, {"--png", "would replace mask.png"});
+  expect_failure(3, {"pack", "mask.png", "-o", "./mask.png"}, {"--out", "would replace mask.png"});
+  // Text over a picture is a slip, whether it is read or not.
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"spectrum", "mask.png", "--csv", "mask.png"},
+           {"report", "mask.png", "-o", "mask.png"},
+           {"retarget", "mask.png", "--method", "anneal", "--trace", "mask.png"}})
+    expect_failure(1, arguments, {"names a texture, and text is written there"});
+  EXPECT_EQ(read_bytes(scratch_ / "mask.png"), before);
+  expect_names({"mask.png"});
+}
+
 TEST_F(BadInput, RequestsAboveTheMemoryLimit) {
   expect_failure(4, {"noise", "void-and-cluster", "--size", "1024x1024", "--max-memory", "2M", "-o", "x.png"},
                  {"MiB", "at most 2 MiB", "--max-memory"});
