@@ -40,6 +40,8 @@ bool is_no_texture(const Volume& volume) {
 std::optional<StackedTexture> SpectrumAnalyst::read_texture(const SpectrumInput& input) {
   const Volume volume = read_volume(input.paths, {}, session_.execution);
   if (input.found && is_no_texture(volume)) return std::nullopt;
+  if (volume.metadata && volume.metadata->kind == "spatiotemporal-mask" && volume.image.depth == 1)
+    ++single_slices_;
   StackedTexture texture{.name = input.paths.front().string(),
                          .shape = volume.image.shape(),
                          .channels = {},
@@ -63,6 +65,11 @@ void SpectrumAnalyst::look_at(const SpectrumInput& input) {
 }
 
 void SpectrumAnalyst::finish() {
+  if (single_slices_ > 1) {
+    result_.notes.push_back(
+        fmt::format("{} files say that they are slices; --volume judges them as one volume, in time too",
+                    single_slices_));
+  }
   if (passed_over_ > 0) {
     result_.notes.push_back(fmt::format(
         "{} file{} in the folders {} no mask and {} passed over", passed_over_, passed_over_ == 1 ? "" : "s",

@@ -67,7 +67,7 @@ class SpectrumAnalyst {
   std::optional<PowerSpectrum> average_;
   bool one_size_ = true;
   double worst_deviation_ = 0.0, worst_distance_ = std::numeric_limits<double>::quiet_NaN();
-  int passed_over_ = 0, failed_ = 0;
+  int passed_over_ = 0, failed_ = 0, single_slices_ = 0;
 };
 
 }  // namespace bn::tools

@@ -135,15 +135,15 @@ std::string figures_in_full(const SpectrumRow& row) {
 }
 
 std::string one_texture(const SpectrumRow& row) {
-  std::string head = row.name() + "\n" + size_of(row.figures.shape);
+  std::string head = size_of(row.figures.shape);
   if (row.judgement) head += fmt::format(", {}: {}", verdict_of(row), row.judgement->headline);
   if (!std::isnan(row.grade.score)) {
     head += fmt::format(", grade {} of 100", score(row.grade.score));
     if (!row.grade.weakest.empty()) head += fmt::format(" (by {})", label_of(row.grade.weakest));
   }
-  head += "\n";
+  head = wrapped(head, 0);
   if (row.judgement) head += reasons_of(*row.judgement);
-  return head + "\n" + figures_in_full(row);
+  return row.name() + "\n" + head + "\n" + figures_in_full(row);
 }
 
 std::string table(const std::vector<SpectrumRow>& rows) {

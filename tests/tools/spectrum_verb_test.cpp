@@ -236,6 +236,17 @@ TEST_F(SpectrumVerb, FilesOfSeveralSlicesAndPatternsAreVolumes) {
   }
 }
 
+TEST_F(SpectrumVerb, SlicesOfAStackJudgedOneByOneAreNoted) {
+  ASSERT_EQ(
+      run_bn({"noise", "spatiotemporal", "--size", "8x8x3", "-o", "t_%d.png"}, {.folder = scratch_.path()})
+          .exit_code,
+      0);
+  EXPECT_NE(run({"t_0.png", "t_1.png", "t_2.png"}).out.find("3 files say that they are slices; --volume"),
+            std::string::npos);
+  const std::string whole = run({"t_%d.png"}).out;
+  EXPECT_EQ(whole.find("--volume"), std::string::npos) << whole;
+}
+
 TEST_F(SpectrumVerb, AChannelIsChosenByTheNameThatTheFileGivesIt) {
   write_named_exr(scratch_ / "passes.exr", void_and_cluster({.size = {32, 32}}));
   const ProcessResult mask = run({"passes.exr", "--channel", "Z", "--check", "blue"});
@@ -340,8 +351,8 @@ TEST_F(SpectrumVerb, RefusesWhatItCannotRead) {
   EXPECT_EQ(run({"mask.png", "--channel", "3"}).exit_code, 3);
   EXPECT_EQ(run({"mask.png", "narrow.png", "--volume"}).exit_code, 3);
   // What cannot be written is found before anything is read.
-  for (const char* option : {"--png", "--csv"}) {
-    const ProcessResult outcome = run({"absent.png", option, "no/out.png"});
+  for (const auto& [option, path] : {std::pair{"--png", "no/out.png"}, {"--csv", "no/out.csv"}}) {
+    const ProcessResult outcome = run({"absent.png", option, path});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err.find("absent"), std::string::npos) << outcome.err;
   }

@@ -54,6 +54,20 @@ TEST_F(Stacks, AWholeOneIsTakenWhateverElseIsHidden) {
   }
 }
 
+TEST_F(Stacks, AreVerifiedByTheirPattern) {
+  ASSERT_EQ(run({"retarget", "s", "--radius", "2", "-o", "t_%d.png"}).exit_code, 0);
+  write_bytes(scratch_ / "._t_0.png", "no picture");
+  for (const char* path : {"t_%d.png", "t_2.png", "."}) {
+    const ProcessResult result = run({"verify", path});
+    EXPECT_EQ(result.exit_code, path[0] == '.' ? 5 : 0)
+        << result.out << result.err;  // in "." foreign masks too
+    EXPECT_NE(result.out.find("4 of 4 tiles optimal"), std::string::npos) << result.out;
+    EXPECT_EQ(result.out.find("._t_0"), std::string::npos) << result.out;
+  }
+  EXPECT_NE(run({"verify", "u_%d.png"}).out.find("there is no file of this name and a number"),
+            std::string::npos);
+}
+
 TEST_F(Stacks, AMissingNumberIsNamed) {
   remove("s_2.png");
   expect_refused("number 2 is missing between 0 and 3");
