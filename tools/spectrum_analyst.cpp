@@ -146,7 +146,7 @@ void SpectrumAnalyst::look_at(const StackedTexture& texture) {
   }
   if (failed && settings_.channel == "all") {
     for (const Finding& finding : diagnose_alpha(samples)) {
-      result_.file_findings.push_back(fmt::format("{}: {}", texture.name, finding.text));
+      result_.file_findings.push_back({texture.name, finding.text});
     }
   }
 }

@@ -170,6 +170,12 @@ std::string table(const std::vector<SpectrumRow>& rows) {
                         number(bands[1]), number(bands[2]), number(bands[3]),
                         short_name(row, kColumns - head.size()));
   }
+  return text;
+}
+
+/// Why textures fail or are not judged, each in a paragraph.
+std::string reasons_in_words(const std::vector<SpectrumRow>& rows) {
+  std::string text;
   for (const SpectrumRow& row : rows) {
     if (!row.set_aside.empty()) {
       text += fmt::format("-     {}\n{}", row.name(), wrapped(row.set_aside, 6));
@@ -284,9 +290,12 @@ std::string to_text(const SpectrumResult& result) {
     text += one_texture(result.rows.front());
   } else if (!result.rows.empty()) {
     text += table(result.rows);
+    // What explains all channels comes before what each of them reads.
+    for (const auto& [file, finding] : result.file_findings)
+      text += fmt::format("FAIL  {}\n{}", file, wrapped(finding, 6));
+    text += reasons_in_words(result.rows);
   }
   text += pairs_in_words(result);
-  for (const std::string& finding : result.file_findings) text += wrapped("      " + finding, 0);
   for (const auto& [file, error] : result.faults) {
     text += fmt::format("ERROR {}\n{}", file, wrapped(error.what, 6));
   }
@@ -328,13 +337,16 @@ Json to_json(const SpectrumResult& result) {
     json["errors"].push_back(
         {{"file", file}, {"exit_code", static_cast<int>(error.code)}, {"message", Error(error).what()}});
   }
-  if (!result.file_findings.empty()) json["file_findings"] = result.file_findings;
+  for (const auto& [file, finding] : result.file_findings)
+    json["file_findings"].push_back(fmt::format("{}: {}", file, finding));
   return json;
 }
 
 std::vector<std::string> failures_of(const SpectrumResult& result) {
   std::vector<std::string> failures;
   if (!result.check) return failures;
+  for (const auto& [file, finding] : result.file_findings)
+    failures.push_back(fmt::format("{}: {}", file, finding));
   for (const SpectrumRow& row : result.rows) {
     if (!row.judgement || row.judgement->outcome != Judgement::Outcome::failed) continue;
     const std::vector<std::string>& reasons = row.judgement->reasons;

@@ -46,8 +46,11 @@ struct SpectrumResult {
   };
   std::vector<Fault> faults;  ///< files that could not be read or analysed
   std::vector<std::string> notes;
-  std::vector<std::string>
-      file_findings;  ///< what was done to all channels of a file: "a.png: the colours are ..."
+  /// What was done to all channels of a file: "the colours are multiplied by alpha ...".
+  struct FileFinding {
+    std::string file, text;
+  };
+  std::vector<FileFinding> file_findings;
 };
 
 /// Texts for people, at most 80 columns but for file names that are longer.

@@ -188,6 +188,26 @@ TEST_F(SpectrumVerb, JudgesEveryChannelAndComparesThem) {
   EXPECT_NE(unknown.err.find("it has no channel none (allowed: 0..3)"), std::string::npos) << unknown.err;
 }
 
+TEST_F(SpectrumVerb, WhatSpoiltAllChannelsIsSaidFirst) {
+  std::vector<Grid<std::uint32_t>> four;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    four.push_back(void_and_cluster({.size = {64, 64}, .seed = seed}));
+  Image image = encode_masks(four, SampleType::u8);
+  for (std::size_t i = 0; i < image.samples.size(); ++i) {
+    const int alpha = std::to_integer<int>(image.samples[i / 4 * 4 + 3]);
+    if (i % 4 < 3)
+      image.samples[i] = static_cast<std::byte>(std::to_integer<int>(image.samples[i]) * alpha / 255);
+  }
+  write_image(scratch_ / "premultiplied.png", image, {});
+  const ProcessResult outcome = run({"premultiplied.png", "--check", "blue"});
+  EXPECT_EQ(outcome.exit_code, 5);
+  const std::string cause = "premultiplied.png\n      the colours are multiplied by alpha; ";
+  EXPECT_LT(outcome.out.find("FAIL  " + cause), outcome.out.find("premultiplied.png, channel 0"))
+      << outcome.out;
+  EXPECT_TRUE(outcome.err.starts_with("bn: check: premultiplied.png: the colours are multiplied by alpha"))
+      << outcome.err;
+}
+
 TEST_F(SpectrumVerb, CountsOneTextureOnceInWhateverEncoding) {
   const auto mask = void_and_cluster({.size = {64, 64}});
   write("m.png", mask);
