@@ -122,47 +122,64 @@ EntryArguments::EntryArguments(const Kind& kind) : entry_(kind.make()), options_
   entry_->name = kind.table;
 }
 
+Argument EntryArguments::flag_for(const Option& option) {
+  Argument argument = argument_of(option);
+  argument.assign = [this, key = option.key, flag = argument.name](std::string_view text) {
+    assign(key, text, flag);
+  };
+  return argument;
+}
+
+Argument EntryArguments::output_flag_for(const Option& option) {
+  Argument argument = argument_of(option);
+  if (!option.unset_help.empty()) argument.initial = option.unset_help;
+  argument.assign = [this, key = option.key, option, flag = argument.name](std::string_view text) {
+    value_from_text(option, text, flag);  // refused at once; set when the path is known
+    output_texts_.emplace_back(key, text);
+  };
+  return argument;
+}
+
 void EntryArguments::declare(Arguments& arguments) {
   for (const Option& option : options_.list()) {
     // A choice of one word is none.
     if (option.recipe_only || (option.type == OptionType::choice && option.words.size() < 2)) continue;
-    Argument argument = argument_of(option);
-    const std::string key = option.key;
+    Argument argument = flag_for(option);
     if (option.names_file && &option == first_file(options_)) {
-      std::transform(key.begin(), key.end(), argument.name.begin(),
+      argument.name = option.key;
+      std::transform(argument.name.begin(), argument.name.end(), argument.name.begin(),
                      [](unsigned char c) { return std::toupper(c); });
-      argument.name.resize(key.size());
       argument.placeholder = argument.name;
       argument.initial.clear();
       argument.required = true;
       argument.completion = Completion::file;
+      argument.assign = [this, key = option.key, name = argument.name](std::string_view text) {
+        assign(key, text, name);
+      };
     }
-    argument.assign = [this, key, flag = argument.name](std::string_view text) { assign(key, text, flag); };
     arguments.add(std::move(argument));
   }
   entry_->add_output();
   const Options of_output = entry_->output_options(0);
   for (const Option& option : of_output.list()) {
-    if (option.recipe_only) continue;
-    Argument argument = argument_of(option);
-    if (!option.unset_help.empty()) argument.initial = option.unset_help;
-    argument.assign = [this, key = option.key, option, flag = argument.name](std::string_view text) {
-      value_from_text(option, text, flag);  // refused at once; set when the path is known
-      output_texts_.emplace_back(key, text);
-    };
-    arguments.add(std::move(argument));
+    if (!option.recipe_only) arguments.add(output_flag_for(option));
+  }
+}
+
+void EntryArguments::declare_some(Arguments& arguments, const std::vector<std::string>& keys,
+                                  const std::string& heading) {
+  if (entry_->output_count() == 0) entry_->add_output();
+  Options of_output = entry_->output_options(0);
+  for (const std::string& key : keys) {
+    const Option* const option = options_.find(key);
+    arguments.add(option != nullptr ? flag_for(*option) : output_flag_for(*of_output.find(key)));
+    arguments.in_group(heading);
   }
 }
 
 void EntryArguments::assign(const std::string& key, std::string_view text, std::string_view flag) {
   Option& option = *options_.find(key);
-  if (option.names_file && text.empty()) {
-    throw Error({.code = ErrorCode::usage,
-                 .what = "names no file",
-                 .where = std::string(flag),
-                 .limit = "",
-                 .remedy = ""});
-  }
+  if (option.names_file) check_path_word(text, flag);
   option.set(value_from_text(option, text, flag));
   given_.push_back(key);
 }
@@ -199,6 +216,10 @@ Entry& EntryArguments::finish(const std::string& path) {
     entry_->drop_outputs();  // the one that declare() made
     return *entry_;
   }
+  return with_output(path);
+}
+
+Entry& EntryArguments::with_output(const std::string& path) {
   entry_->output_path(0) = path;
   entry_->default_output(0);
   Options of_output = entry_->output_options(0);

@@ -20,12 +20,16 @@ class EntryArguments {
 
   /// Adds an argument for each option: files that are read are positional, the rest flags.
   void declare(Arguments& arguments);
+  /// Adds flags for these options alone, under a heading of their own.
+  void declare_some(Arguments& arguments, const std::vector<std::string>& keys, const std::string& heading);
   /// Sets what a flag of another name means: `text` for the option `key`.
   void assign(const std::string& key, std::string_view text, std::string_view flag);
 
   /// The entry with one output, or none where `path` is empty. Errors: invalid_input (options that do not fit
   /// together).
   Entry& finish(const std::string& path);
+  /// The entry with one output, without looking whether its options fit together.
+  Entry& with_output(const std::string& path);
   Entry& entry() { return *entry_; }
   bool was_given(const std::string& key) const;
 
@@ -34,6 +38,8 @@ class EntryArguments {
 
  private:
   void check() const;
+  Argument flag_for(const Option& option);
+  Argument output_flag_for(const Option& option);
 
   std::shared_ptr<Entry> entry_;
   Options options_;

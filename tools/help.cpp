@@ -20,6 +20,7 @@ std::string help_of(const std::vector<std::string>& words, const std::vector<Ver
   for (const Verb& verb : verbs) {
     if (verb.name == name) return verb_help(verb, globals);
     names.push_back(verb.name);
+    names.push_back(verb.name.substr(0, verb.name.find(' ')));
   }
   for (const Verb& verb : verbs) {
     if (verb.name.starts_with(name + " ")) return group_help(name, verbs);

@@ -53,9 +53,26 @@ std::string line(const std::string& left, const std::string& right) {
   return text + wrapped(right, kExplanation) + "\n";
 }
 
+/// A command that is wider than the text goes on in a further line, as a shell takes it.
+std::string command_text(std::string command) {
+  std::string text = "  ";
+  for (std::size_t width = kColumns - 4; command.size() > width; width = kColumns - 8) {
+    const std::size_t end = command.rfind(" -", width);  // an option stays with its value
+    if (end == std::string::npos) break;
+    text += command.substr(0, end) + " \\\n      ";
+    command.erase(0, end + 1);
+  }
+  return text + command;
+}
+
 std::string examples_text(const std::vector<Example>& examples) {
   std::string text = "Examples\n";
-  for (const auto& [command, purpose] : examples) text += fmt::format("  # {}\n  {}\n", purpose, command);
+  for (const auto& [command, purpose] : examples) {
+    std::string lines = wrapped(purpose, 4);
+    for (std::size_t at = 0; (at = lines.find("\n    ", at)) != std::string::npos; at += 5)
+      lines.replace(at, 5, "\n  # ");
+    text += fmt::format("  # {}\n{}\n", lines, command_text(command));
+  }
   return text + "\n";
 }
 

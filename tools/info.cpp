@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "bn/error.h"
@@ -56,6 +57,7 @@ Json json_of(const std::filesystem::path& path, const Volume& content) {
               {"channels", content.image.channels},
               {"type", name_of(content.image.type)},
               {"pixel_hash", pixel_hash(content.image)}};
+  if (!content.channel_names.empty()) result["channel_names"] = content.channel_names;
   if (content.image.depth > 1) result["depth"] = content.image.depth;
   if (content.files.size() > 1) result["files"] = content.files.size();
   if (!content.notes.empty()) result["notes"] = content.notes;
@@ -81,14 +83,24 @@ class Printer {
     std::error_code failed;
     if (!std::filesystem::is_directory(path, failed)) return attempt(path);
     // A folder is one volume, or else pictures that have nothing in common.
-    std::vector<std::filesystem::path> files = image_files(path);
+    const std::vector<std::filesystem::path> files = image_files(path);
     try {
       return print(path, read_volume(path, {}, session_.execution));
     } catch (const Error& error) {
       if (error.code() != ErrorCode::invalid_input || files.empty()) throw;
+      note_if_numbered(path);
     }
     several_ = several_ || files.size() > 1;
     for (const auto& file : files) attempt(file);
+  }
+
+  /// Names of slices that are no volume since one is missing or comes twice, which people should know.
+  void note_if_numbered(const std::filesystem::path& folder) {
+    try {
+      slice_files(std::span(&folder, 1));
+    } catch (const Error& error) {
+      session_.progress.note(fmt::format("no volume: {}", error.what()));
+    }
   }
 
   void attempt(const std::filesystem::path& path) {

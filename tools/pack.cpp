@@ -7,6 +7,8 @@
 
 #include "bn/error.h"
 #include "bn/volume.h"
+#include "tools/channel.h"
+#include "tools/keep_inputs.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 
@@ -16,7 +18,7 @@ namespace {
 /// One argument: a file and, behind a colon, one of its channels.
 struct ChannelSource {
   std::filesystem::path path;
-  std::optional<int> channel;  ///< empty: all of them
+  std::string channel;  ///< a number or a name; empty: all of them
 };
 
 struct Settings {
@@ -28,17 +30,22 @@ struct Settings {
 
 ValueKind<ChannelSource> channel_source() {
   return {.placeholder = "FILE[:CHANNEL]",
-          .allowed = "channels from 0",
+          .allowed = "a channel's number from 0, or its name in an EXR",
           .parse =
               [](std::string_view text, std::string_view where) {
                 const std::filesystem::path whole = file_path().parse(text, where);
                 const std::size_t colon = text.rfind(':');
                 std::error_code error;
-                const bool digits = colon != std::string_view::npos && colon + 1 < text.size() && colon > 0 &&
-                                    text.find_first_not_of("0123456789", colon + 1) == std::string_view::npos;
-                if (!digits || std::filesystem::exists(whole, error)) return ChannelSource{whole, {}};
-                return ChannelSource{std::filesystem::path(text.substr(0, colon)),
-                                     integer_in(0, 63).parse(text.substr(colon + 1), where)};
+                const bool has_channel =
+                    colon != std::string_view::npos && colon > 0 && colon + 1 < text.size();
+                if (!has_channel || std::filesystem::exists(whole, error)) return ChannelSource{whole, ""};
+                // A name that is no file's, "a:b/c.png" for one, keeps its colon.
+                const std::filesystem::path file(text.substr(0, colon));
+                const std::string channel(text.substr(colon + 1));
+                const bool is_number = channel.find_first_not_of("0123456789") == std::string::npos;
+                if (!is_number && !std::filesystem::exists(file, error) && !has_number(file))
+                  return ChannelSource{whole, ""};
+                return ChannelSource{file, channel};
               },
           .show = {},
           .completion = Completion::file};
@@ -72,12 +79,11 @@ Channels channels_of(const Settings& settings, const std::map<std::filesystem::p
       refuse(layout_text(image), fmt::format("{}, as {}", layout_text(first), first_path.string()),
              "pack files of one size and type");
     }
-    if (source.channel && *source.channel >= image.channels) {
-      refuse(fmt::format("it has no channel {}", *source.channel), fmt::format("0..{}", image.channels - 1),
-             "");
-    }
-    const int begin = source.channel.value_or(0);
-    const int end = source.channel ? begin + 1 : image.channels;
+    const bool all = source.channel.empty();
+    const int begin = all ? 0
+                          : find_channel(source.channel, image.channels, files.at(source.path).channel_names,
+                                         source.path.string());
+    const int end = all ? image.channels : begin + 1;
     for (int c = begin; c < end; ++c) {
       channels.refs.push_back({&image, c});
       channels.list.push_back({{"file", source.path.string()}, {"channel", c}});
@@ -109,6 +115,8 @@ void run(const Settings& settings, Session& session) {
   const Channels channels = channels_of(settings, files);
   const Image& first = *channels.refs.front().image;
   const VolumeOutput output{.slices = settings.slices, .atlas = {}};
+  for (const ChannelSource& source : settings.sources)
+    check_keeps(settings.out, "--out", std::span(&source.path, 1));
   // Before the samples are copied: what the format cannot hold.
   check_volume_writable(settings.out, first.shape(), first.type, static_cast<int>(channels.refs.size()),
                         output);
@@ -142,10 +150,11 @@ Verb pack_verb() {
   verb.summary = "Put channels of several files into one texture.";
   verb.examples = {
       {"bn pack a.png b.png c.png d.png -o rgba.png", "four masks as red, green, blue and alpha"},
-      {"bn pack rgba.png:3 other.exr:0 -o two.ktx2", "chosen channels; the first is 0"},
+      {"bn pack noise.exr:3 passes.exr:Z -o two.exr", "chosen channels, by number from 0 or by name"},
       {"bn pack stack_a stack_b -o both.ktx2", "two folders of slices as a volume of two channels"}};
   verb.details =
-      "A FILE gives all its channels, FILE:N gives channel N alone. It may also be a folder of slices or a "
+      "A FILE gives all its channels, FILE:N gives channel N alone, in an EXR also by its name. It may also "
+      "be a folder of slices or a "
       "pattern of numbered ones (slice_%03d.png). Samples are copied as they are: nothing is converted, "
       "scaled "
       "or multiplied by alpha, so the fourth channel leaves the other three alone. All files must have one "

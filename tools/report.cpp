@@ -75,7 +75,7 @@ Verb report_verb() {
       "its thresholds "
       "is marked, which is no error either: bn spectrum --check is for that.";
   verb.arguments.positional_list("DIR|FILE", options.inputs, file_path(), "Folders to search and textures.");
-  verb.arguments.required_option("--out", options.out, file_path(), "The page to write.", "-o");
+  verb.arguments.required_option("--out", options.out, text_path(), "The page to write.", "-o");
   verb.arguments.flag("--compare", options.compare, true, "Begin with all textures side by side.");
   verb.arguments.flag("--volume", options.volume, true,
                       "Each folder, or all files together, is one volume of slices.");

@@ -144,7 +144,7 @@ Verb retarget_verb() {
       "A budget by the clock in place of --proposals: a trial run turns it into proposals.");
   verb.arguments.in_group("With --method anneal");
   verb.arguments.option(
-      "--trace", settings->trace, file_path(),
+      "--trace", settings->trace, text_path(),
       "Write annealing's course as CSV (one tile only); docs/annealing.md lists its columns.");
   verb.arguments.in_group("With --method anneal");
   declare_older_names(verb.arguments, *settings);

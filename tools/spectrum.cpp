@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "bn/error.h"
-#include "bn/texture.h"
-#include "tools/slice_files.h"
+#include "bn/volume.h"
+#include "tools/keep_inputs.h"
 #include "tools/spectrum_analyst.h"
 #include "tools/verb.h"
 
@@ -31,54 +31,30 @@ struct Settings {
   bool json = false;
 };
 
-/// "all", or one channel's number.
-ValueKind<std::optional<int>> channel_or_all() {
-  const ValueKind<int> number = integer_in(0, 63);
-  return {.placeholder = "N|all",
-          .allowed = "all, or " + number.allowed,
-          .parse = [number](std::string_view text, std::string_view where) -> std::optional<int> {
-            if (text == "all") return std::nullopt;
-            return number.parse(text, where);
-          },
-          .show =
-              [](const std::optional<int>& channel) {
-                return channel ? fmt::format("{}", *channel) : std::string("all");
-              }};
-}
-
 /// What the words on the command line mean.
 std::vector<SpectrumInput> inputs_of(const Settings& settings, SpectrumResult& result) {
   std::vector<SpectrumInput> inputs;
   std::vector<fs::path> slices;
-  const auto add_volume = [&](const std::vector<fs::path>& files, const std::string& folder) {
-    SliceFiles order = in_slice_order(files);
-    for (const std::string& note : order.notes) result.notes.push_back(note);
-    const std::string name = folder.empty() ? order.files.front().string() : folder;
-    inputs.push_back({fmt::format("{} ({} slices)", name, order.files.size()), std::move(order.files)});
-  };
   for (const fs::path& path : settings.files) {
     std::error_code ignored;
-    if (fs::is_directory(path, ignored)) {
-      const std::vector<fs::path> files = textures_below(path);
-      if (files.empty()) {
-        result.faults.push_back({path.string(),
-                                 {.code = ErrorCode::invalid_input,
-                                  .what = "there is no texture in this folder",
-                                  .where = path.string(),
-                                  .limit = "",
-                                  .remedy = "name files, or another folder"}});
-      } else if (settings.volume) {
-        add_volume(files, path.string());
-      } else {
-        for (const fs::path& file : files) inputs.push_back({file.string(), {file}, true});
-      }
-    } else if (settings.volume) {
+    const bool is_folder = fs::is_directory(path, ignored);
+    if (!is_folder && settings.volume) {
       slices.push_back(path);
+    } else if (!is_folder || settings.volume) {
+      inputs.push_back({{path}});
     } else {
-      inputs.push_back({path.string(), {path}});
+      const std::vector<fs::path> files = image_files_below(path);
+      for (const fs::path& file : files) inputs.push_back({{file}, true});
+      if (!files.empty()) continue;
+      result.faults.push_back({path.string(),
+                               {.code = ErrorCode::invalid_input,
+                                .what = "there is no texture in this folder",
+                                .where = path.string(),
+                                .limit = "",
+                                .remedy = "name files, or another folder"}});
     }
   }
-  if (!slices.empty()) add_volume(slices, "");
+  if (!slices.empty()) inputs.push_back({std::move(slices)});
   return inputs;
 }
 
@@ -130,7 +106,10 @@ void throw_the_worst(const SpectrumResult& result) {
 }
 
 void run(const Settings& settings, Session& session) {
-  if (!settings.png.empty()) check_writable(settings.png, SampleType::u8, 1);
+  if (!settings.png.empty()) {
+    check_writable(settings.png, SampleType::u8, 1);
+    check_keeps(settings.png, "--png", settings.files);
+  }
   if (!settings.csv.empty()) check_text_writable(settings.csv);
   SpectrumResult result{.check = settings.spectrum.check,
                         .rows = {},
@@ -198,7 +177,10 @@ Verb spectrum_verb() {
       "where the size allows no verdict. docs/spectrum.md has the thresholds, their reasons, the grade's "
       "reference "
       "and the JSON.\n\n"
-      "Slices are taken in the order of their numbers. A file that cannot be read is listed and the others "
+      "A file of several slices, a pattern (slice_%03d.png) and with --volume a folder or a list of slices "
+      "are "
+      "volumes. Slices are taken in the order of their numbers, of which none may be missing. A file that "
+      "cannot be read is listed and the others "
       "are "
       "judged all the same; the exit code is the highest of all that went wrong.";
   verb.arguments.positional_list("FILE|DIR", settings->files, file_path(), "Textures, and folders of them.");
@@ -210,13 +192,14 @@ Verb spectrum_verb() {
       "--distribution", settings->spectrum.distribution,
       choice_of<Distribution>({{"uniform", Distribution::uniform}, {"triangular", Distribution::triangular}}),
       "How the values should be spread over their range.");
-  verb.arguments.option("--channel", settings->spectrum.channel, channel_or_all(), "The channel to analyse.");
+  verb.arguments.option("--channel", settings->spectrum.channel, any_text("all|N|NAME"),
+                        "The channel to analyse: its number from 0, or the name that an EXR gives it.");
   verb.arguments.flag("--volume", settings->volume, true,
                       "Each folder, or all files together, is one volume of slices.");
   verb.arguments.option(
-      "--png", settings->png, file_path(),
+      "--png", settings->png, texture_path(),
       "Write the spectrum (of the average) as a picture: DC in the middle, -50 to +12.5 dB.");
-  verb.arguments.option("--csv", settings->csv, file_path(), "Write power and anisotropy by frequency.");
+  verb.arguments.option("--csv", settings->csv, text_path(), "Write power and anisotropy by frequency.");
   verb.arguments.flag("--json", settings->json, true, "Print JSON.");
   verb.run = [settings](Session& session) { run(*settings, session); };
   return verb;

@@ -9,82 +9,67 @@
 #include <cmath>
 
 #include "bn/error.h"
+#include "tools/channel.h"
 
 namespace bn::tools {
 
-/// The channels of one picture, or of a stack of pictures.
+/// The channels of one picture, or of a volume.
 struct StackedTexture {
   std::string name;
   Shape shape;
   std::vector<ChannelSamples> channels;
+  std::vector<std::string> channel_names;
+
+  std::string label(int channel) const { return channel_label(channel, channel_names); }
 };
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kPrintValues = 4096;
 
-[[noreturn]] void fail(const fs::path& path, std::string what, std::string limit, std::string remedy = "") {
-  throw Error({.code = ErrorCode::invalid_input,
-               .what = std::move(what),
-               .where = path.string(),
-               .limit = std::move(limit),
-               .remedy = std::move(remedy)});
-}
-
-/// Reads `path` and appends its channels as the next slice.
-void append_slice(const fs::path& path, const Image& image, StackedTexture& texture) {
-  const Shape slice = image.size;
-  if (texture.channels.empty()) {
-    texture.shape = slice;
-    texture.channels.resize(static_cast<std::size_t>(image.channels));
-  } else if (texture.shape.slice() != image.size) {
-    fail(path, fmt::format("a slice of {} x {}", slice.width, slice.height),
-         fmt::format("{} x {}, as the first", texture.shape.width, texture.shape.height));
-  } else if (std::ssize(texture.channels) != image.channels) {
-    fail(path, fmt::format("a slice of {} channels", image.channels),
-         fmt::format("{}, as the first", texture.channels.size()));
-  } else {
-    ++texture.shape.depth;
-  }
-  for (std::size_t c = 0; c < texture.channels.size(); ++c) {
-    append_samples(texture.channels[c], samples_of_channel(image, static_cast<int>(c)));
-  }
-}
-
 /// Whether a file of ours is something else than a texture to be judged.
-bool is_no_texture(const FileContent& content) {
-  if (!content.metadata) return false;
-  const std::string& kind = content.metadata->kind;
+bool is_no_texture(const Volume& volume) {
+  if (!volume.metadata) return false;
+  const std::string& kind = volume.metadata->kind;
   return kind.starts_with("retarget") || kind == "contact-sheet" || kind == "spectrum";
-}
-
-/// Nothing for a file in a folder that is no mask.
-std::optional<StackedTexture> read_texture(const SpectrumInput& input, const Execution& execution) {
-  StackedTexture texture{.name = input.name, .shape = {}, .channels = {}};
-  for (const fs::path& path : input.files) {
-    const FileContent content = read_image(path, execution);
-    if (input.found && is_no_texture(content)) return std::nullopt;
-    append_slice(path, content.image, texture);
-  }
-  return texture;
 }
 
 }  // namespace
 
+/// Nothing for a file in a folder that is no mask.
+std::optional<StackedTexture> SpectrumAnalyst::read_texture(const SpectrumInput& input) {
+  const Volume volume = read_volume(input.paths, {}, session_.execution);
+  if (input.found && is_no_texture(volume)) return std::nullopt;
+  if (volume.metadata && volume.metadata->kind == "spatiotemporal-mask" && volume.image.depth == 1)
+    ++single_slices_;
+  StackedTexture texture{.name = input.paths.front().string(),
+                         .shape = volume.image.shape(),
+                         .channels = {},
+                         .channel_names = volume.channel_names};
+  if (texture.shape.depth > 1) texture.name += fmt::format(" ({} slices)", texture.shape.depth);
+  for (int c = 0; c < volume.image.channels; ++c)
+    texture.channels.push_back(samples_of_channel(volume.image, c));
+  result_.notes.insert(result_.notes.end(), volume.notes.begin(), volume.notes.end());
+  return texture;
+}
+
 void SpectrumAnalyst::look_at(const SpectrumInput& input) {
   try {
-    const std::optional<StackedTexture> texture = read_texture(input, session_.execution);
+    const std::optional<StackedTexture> texture = read_texture(input);
     if (!texture) return void(++passed_over_);
     look_at(*texture);
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) throw;
-    result_.faults.push_back({input.name, error.info()});
+    result_.faults.push_back({input.paths.front().string(), error.info()});
   }
 }
 
 void SpectrumAnalyst::finish() {
+  if (single_slices_ > 1) {
+    result_.notes.push_back(
+        fmt::format("{} files say that they are slices; --volume judges them as one volume, in time too",
+                    single_slices_));
+  }
   if (passed_over_ > 0) {
     result_.notes.push_back(fmt::format(
         "{} file{} in the folders {} no mask and {} passed over", passed_over_, passed_over_ == 1 ? "" : "s",
@@ -109,10 +94,6 @@ void SpectrumAnalyst::finish() {
 
 void SpectrumAnalyst::look_at(const StackedTexture& texture) {
   const auto count = static_cast<int>(texture.channels.size());
-  if (settings_.channel && *settings_.channel >= count) {
-    fail(texture.name, fmt::format("there is no channel {}", *settings_.channel),
-         fmt::format("0..{}", count - 1));
-  }
   std::vector<Samples> samples;
   for (const ChannelSamples& channel : texture.channels) {
     samples.push_back(
@@ -140,6 +121,7 @@ void SpectrumAnalyst::look_at(const StackedTexture& texture) {
     SpectrumRow row;
     row.file = texture.name;
     row.channel = c;
+    if (!texture.channel_names.empty()) row.channel_name = texture.label(c);
     row.only_channel = count == 1;
     row.figures = analyses[i].figures;
     row.set_aside = aside_of(texture, c);
@@ -162,9 +144,9 @@ void SpectrumAnalyst::look_at(const StackedTexture& texture) {
     }
     result_.rows.push_back(std::move(row));
   }
-  if (failed && !settings_.channel) {
+  if (failed && settings_.channel == "all") {
     for (const Finding& finding : diagnose_alpha(samples)) {
-      result_.file_findings.push_back(fmt::format("{}: {}", texture.name, finding.text));
+      result_.file_findings.push_back({texture.name, finding.text});
     }
   }
 }
@@ -180,8 +162,11 @@ void SpectrumAnalyst::judge(SpectrumRow& row, const Samples& samples, const Anal
 
 /// Grey that is stored as colour is one texture.
 std::vector<int> SpectrumAnalyst::channels_to_judge(const StackedTexture& texture) {
-  if (settings_.channel) return {*settings_.channel};
   const auto& channels = texture.channels;
+  if (settings_.channel != "all") {
+    return {find_channel(settings_.channel, static_cast<int>(channels.size()), texture.channel_names,
+                         texture.name)};
+  }
   std::vector<int> wanted;
   const bool grey = channels.size() >= 3 && channels[1].value == channels[0].value &&
                     channels[2].value == channels[0].value &&
@@ -198,7 +183,7 @@ std::vector<int> SpectrumAnalyst::channels_to_judge(const StackedTexture& textur
 
 std::string SpectrumAnalyst::aside_of(const StackedTexture& texture, int c) const {
   const std::size_t count = texture.channels.size();
-  if (settings_.channel || count == 1) return {};
+  if (settings_.channel != "all" || count == 1) return {};
   const auto constant = [](const ChannelSamples& channel) {
     return std::all_of(channel.value.begin(), channel.value.end(),
                        [&](double value) { return value == channel.value.front(); });
@@ -220,7 +205,8 @@ bool SpectrumAnalyst::is_again(const StackedTexture& texture, const std::vector<
       cross_spectrum(samples[static_cast<std::size_t>(a)].values, samples[static_cast<std::size_t>(b)].values,
                      texture.shape, session_.execution);
   if (std::isnan(cross.correlation)) return false;  // a constant one has failed already
-  result_.pairs.push_back({texture.name, a, b, cross, relation_of(cross, fmt::format("channel {}", a))});
+  result_.pairs.push_back({texture.name, a, b, texture.label(b), cross,
+                           relation_of(cross, fmt::format("channel {}", texture.label(a)))});
   return !result_.pairs.back().relation.empty() && std::abs(cross.peak_correlation) > 0.9;
 }
 

@@ -8,22 +8,21 @@
 #include <string>
 #include <vector>
 
-#include "bn/texture.h"
+#include "bn/volume.h"
 #include "tools/session.h"
 #include "tools/spectrum_result.h"
 
 namespace bn::tools {
 
 struct SpectrumSettings {
-  std::optional<int> channel = {};  ///< none: all
+  std::string channel = "all";  ///< or a number, or a name
   std::optional<Check> check = {};
   Distribution distribution = Distribution::uniform;
 };
 
 /// One texture still to be read.
 struct SpectrumInput {
-  std::string name;
-  std::vector<std::filesystem::path> files;  ///< one, or the slices of a volume
+  std::vector<std::filesystem::path> paths;  ///< as read_volume() takes them
   bool found = false;                        ///< in a folder: what is no mask is passed over
 };
 
@@ -53,6 +52,7 @@ class SpectrumAnalyst {
   };
 
   void look_at(const StackedTexture& texture);
+  std::optional<StackedTexture> read_texture(const SpectrumInput& input);
   void judge(SpectrumRow& row, const Samples& samples, const Analysis& analysis);
   std::vector<int> channels_to_judge(const StackedTexture& texture);
   std::string aside_of(const StackedTexture& texture, int channel) const;
@@ -67,7 +67,7 @@ class SpectrumAnalyst {
   std::optional<PowerSpectrum> average_;
   bool one_size_ = true;
   double worst_deviation_ = 0.0, worst_distance_ = std::numeric_limits<double>::quiet_NaN();
-  int passed_over_ = 0, failed_ = 0;
+  int passed_over_ = 0, failed_ = 0, single_slices_ = 0;
 };
 
 }  // namespace bn::tools

@@ -44,9 +44,13 @@ std::string_view verdict_of(const SpectrumRow& row) {
 std::string number(double value) { return std::isnan(value) ? "-" : fmt::format("{:.3g}", value); }
 std::string score(double value) { return std::isnan(value) ? "-" : fmt::format("{:.0f}", value); }
 
+std::string channel_of(const SpectrumRow& row) {
+  return row.channel_name.empty() ? std::to_string(row.channel) : row.channel_name;
+}
+
 /// "rgba.png:2"; of a name that is too long for its column the end.
 std::string short_name(const SpectrumRow& row, std::size_t width) {
-  const std::string name = row.only_channel ? row.file : fmt::format("{}:{}", row.file, row.channel);
+  const std::string name = row.only_channel ? row.file : fmt::format("{}:{}", row.file, channel_of(row));
   return name.size() <= width ? name : "..." + name.substr(name.size() - width + 3);
 }
 
@@ -131,15 +135,15 @@ std::string figures_in_full(const SpectrumRow& row) {
 }
 
 std::string one_texture(const SpectrumRow& row) {
-  std::string head = row.name() + "\n" + size_of(row.figures.shape);
+  std::string head = size_of(row.figures.shape);
   if (row.judgement) head += fmt::format(", {}: {}", verdict_of(row), row.judgement->headline);
   if (!std::isnan(row.grade.score)) {
     head += fmt::format(", grade {} of 100", score(row.grade.score));
     if (!row.grade.weakest.empty()) head += fmt::format(" (by {})", label_of(row.grade.weakest));
   }
-  head += "\n";
+  head = wrapped(head, 0);
   if (row.judgement) head += reasons_of(*row.judgement);
-  return head + "\n" + figures_in_full(row);
+  return row.name() + "\n" + head + "\n" + figures_in_full(row);
 }
 
 std::string table(const std::vector<SpectrumRow>& rows) {
@@ -166,6 +170,12 @@ std::string table(const std::vector<SpectrumRow>& rows) {
                         number(bands[1]), number(bands[2]), number(bands[3]),
                         short_name(row, kColumns - head.size()));
   }
+  return text;
+}
+
+/// Why textures fail or are not judged, each in a paragraph.
+std::string reasons_in_words(const std::vector<SpectrumRow>& rows) {
+  std::string text;
   for (const SpectrumRow& row : rows) {
     if (!row.set_aside.empty()) {
       text += fmt::format("-     {}\n{}", row.name(), wrapped(row.set_aside, 6));
@@ -206,7 +216,7 @@ std::string pairs_in_words(const SpectrumResult& result) {
     std::string relations;
     for (const ChannelPair* pair : related) {
       if (pair->file == file)
-        relations += wrapped(fmt::format("channel {} {}", pair->second, pair->relation), 6);
+        relations += wrapped(fmt::format("channel {} {}", pair->second_label, pair->relation), 6);
     }
     text += fmt::format("{:<5} {}\n", relations.empty() ? "" : result.check ? "FAIL" : "note", file);
     if (!relations.empty()) {
@@ -271,7 +281,7 @@ void add_judgement(const SpectrumRow& row, Json& json) {
 }  // namespace
 
 std::string SpectrumRow::name() const {
-  return only_channel ? file : fmt::format("{}, channel {}", file, channel);
+  return only_channel ? file : fmt::format("{}, channel {}", file, channel_of(*this));
 }
 
 std::string to_text(const SpectrumResult& result) {
@@ -280,9 +290,12 @@ std::string to_text(const SpectrumResult& result) {
     text += one_texture(result.rows.front());
   } else if (!result.rows.empty()) {
     text += table(result.rows);
+    // What explains all channels comes before what each of them reads.
+    for (const auto& [file, finding] : result.file_findings)
+      text += fmt::format("FAIL  {}\n{}", file, wrapped(finding, 6));
+    text += reasons_in_words(result.rows);
   }
   text += pairs_in_words(result);
-  for (const std::string& finding : result.file_findings) text += wrapped("      " + finding, 0);
   for (const auto& [file, error] : result.faults) {
     text += fmt::format("ERROR {}\n{}", file, wrapped(error.what, 6));
   }
@@ -298,6 +311,7 @@ Json to_json(const SpectrumResult& result) {
             {"notes", result.notes}};
   for (const SpectrumRow& row : result.rows) {
     Json item{{"file", row.file}, {"channel", row.channel}};
+    if (!row.channel_name.empty()) item["channel_name"] = row.channel_name;
     item.update(Json::parse(bn::to_json(row.figures)));
     item["grade"] = to_json(row.grade);
     if (!row.set_aside.empty()) item["set_aside"] = row.set_aside;
@@ -323,13 +337,16 @@ Json to_json(const SpectrumResult& result) {
     json["errors"].push_back(
         {{"file", file}, {"exit_code", static_cast<int>(error.code)}, {"message", Error(error).what()}});
   }
-  if (!result.file_findings.empty()) json["file_findings"] = result.file_findings;
+  for (const auto& [file, finding] : result.file_findings)
+    json["file_findings"].push_back(fmt::format("{}: {}", file, finding));
   return json;
 }
 
 std::vector<std::string> failures_of(const SpectrumResult& result) {
   std::vector<std::string> failures;
   if (!result.check) return failures;
+  for (const auto& [file, finding] : result.file_findings)
+    failures.push_back(fmt::format("{}: {}", file, finding));
   for (const SpectrumRow& row : result.rows) {
     if (!row.judgement || row.judgement->outcome != Judgement::Outcome::failed) continue;
     const std::vector<std::string>& reasons = row.judgement->reasons;
@@ -337,7 +354,7 @@ std::vector<std::string> failures_of(const SpectrumResult& result) {
     if (reasons.size() > 1) failures.back() += fmt::format(" (and {} more)", reasons.size() - 1);
   }
   for (const ChannelPair* pair : related_pairs(result)) {
-    failures.push_back(fmt::format("{}: channel {} {}", pair->file, pair->second, pair->relation));
+    failures.push_back(fmt::format("{}: channel {} {}", pair->file, pair->second_label, pair->relation));
   }
   return failures;
 }

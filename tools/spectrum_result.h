@@ -16,6 +16,7 @@ namespace bn::tools {
 struct SpectrumRow {
   std::string file;  ///< or "average"
   int channel = 0;
+  std::string channel_name = {};  ///< "Z" where the file names its channels; else empty
   bool only_channel = true;
   FiguresOfMerit figures;
   Grade grade;
@@ -30,6 +31,7 @@ struct SpectrumRow {
 struct ChannelPair {
   std::string file;
   int first = 0, second = 0;
+  std::string second_label;  ///< its name, or its number
   CrossSpectrum cross;
   std::string relation;  ///< what they have in common; empty: independent, or too small to tell
 };
@@ -44,8 +46,11 @@ struct SpectrumResult {
   };
   std::vector<Fault> faults;  ///< files that could not be read or analysed
   std::vector<std::string> notes;
-  std::vector<std::string>
-      file_findings;  ///< what was done to all channels of a file: "a.png: the colours are ..."
+  /// What was done to all channels of a file: "the colours are multiplied by alpha ...".
+  struct FileFinding {
+    std::string file, text;
+  };
+  std::vector<FileFinding> file_findings;
 };
 
 /// Texts for people, at most 80 columns but for file names that are longer.

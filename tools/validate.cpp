@@ -30,20 +30,20 @@ struct Settings {
   bool json = false;
 };
 
-ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string> suggestions = {}) {
-  ValueKind<std::string> kind;
-  kind.placeholder = std::move(placeholder);
-  if (!suggestions.empty()) kind.completion = Completion::file;
-  kind.choices = std::move(suggestions);
-  kind.parse = [](std::string_view text, std::string_view) { return std::string(text); };
-  kind.show = [](const std::string& text) { return text; };
-  return kind;
-}
-
 std::vector<std::string> scene_words() {
   std::vector<std::string> words = shipped_scene_names();
   words.emplace_back("all");
   return words;
+}
+
+/// The name of a shipped scene, or a file.
+ValueKind<std::string> scene() {
+  ValueKind<std::string> kind = any_text("SCENE", scene_words());
+  kind.parse = [](std::string_view text, std::string_view where) {
+    check_path_word(text, where);
+    return std::string(text);
+  };
+  return kind;
 }
 
 /// A misspelt name of a scene reads as the name of a file that is not there.
@@ -154,7 +154,7 @@ Verb validate_verb() {
       "or cpu "
       "for the plain renderer without Vulkan.";
   verb.arguments.positional(
-      "SCENE", settings->scene, any_text("SCENE", scene_words()),
+      "SCENE", settings->scene, scene(),
       fmt::format("{}, all of them by all, or a TOML file.", fmt::join(shipped_scene_names(), ", ")));
   verb.arguments.option(
       "--method", settings->methods, method_list(),

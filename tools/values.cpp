@@ -64,7 +64,7 @@ ValueKind<std::filesystem::path> path(std::string placeholder, Completion comple
           .allowed = "",
           .parse =
               [](std::string_view text, std::string_view where) {
-                if (text.empty()) fail(text, where, "names no file or folder", "a path that is not empty");
+                check_path_word(text, where);
                 return std::filesystem::path(text);
               },
           .show = [](const std::filesystem::path& value) { return value.string(); },
@@ -226,7 +226,38 @@ ValueKind<std::uint64_t> memory_size() {
               }};
 }
 
+void check_path_word(std::string_view text, std::string_view where) {
+  if (text.empty()) fail(text, where, "names no file or folder", "a path that is not empty");
+  if (text == "-") {
+    fail(text, where, "means standard input or output, and bn reads and writes files only", "a path",
+         "name a file, one called - by ./-");
+  }
+}
+
+ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string> suggestions) {
+  ValueKind<std::string> kind;
+  kind.placeholder = std::move(placeholder);
+  if (!suggestions.empty()) kind.completion = Completion::file;
+  kind.choices = std::move(suggestions);
+  kind.parse = [](std::string_view text, std::string_view) { return std::string(text); };
+  kind.show = [](const std::string& text) { return text; };
+  return kind;
+}
+
 ValueKind<std::filesystem::path> file_path() { return path("FILE", Completion::file); }
+ValueKind<std::filesystem::path> text_path() {
+  ValueKind<std::filesystem::path> kind = file_path();
+  kind.parse = [parse = kind.parse](std::string_view text, std::string_view where) {
+    std::filesystem::path path = parse(text, where);
+    try {
+      check_extension(path);
+    } catch (const Error&) {
+      return path;
+    }
+    fail(text, where, "names a texture, and text is written there", "another extension");
+  };
+  return kind;
+}
 ValueKind<std::filesystem::path> texture_path() {
   ValueKind<std::filesystem::path> kind = file_path();
   kind.parse = [parse = kind.parse](std::string_view text, std::string_view where) {

@@ -48,7 +48,13 @@ ValueKind<std::optional<Offset>> offset_or_auto();
 ValueKind<std::optional<Offset>> offset();
 /// "8G": bytes with one of the binary units K, M, G, T.
 ValueKind<std::uint64_t> memory_size();
+/// Any text; `suggestions` are for the shell.
+ValueKind<std::string> any_text(std::string placeholder, std::vector<std::string> suggestions = {});
+/// Throws usage: no name, or "-" for a standard stream.
+void check_path_word(std::string_view text, std::string_view where);
 ValueKind<std::filesystem::path> file_path();
+/// Text to be written: refuses names of textures, which a slip of the keys would replace.
+ValueKind<std::filesystem::path> text_path();
 /// A texture to be written: its extension must name a format.
 ValueKind<std::filesystem::path> texture_path();
 ValueKind<std::filesystem::path> folder_path();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bn/error.h"
+#include "tools/entry_arguments.h"
 #include "tools/records.h"
 #include "tools/verb.h"
 
@@ -12,8 +13,9 @@ namespace bn::tools {
 namespace {
 
 struct Settings {
-  std::filesystem::path path;
+  std::vector<std::filesystem::path> paths;
   ForeignTile foreign;
+  EntryArguments retarget{*find_kind("retarget")};  ///< of the tile of another program
   std::optional<Offset> step, motion;
   bool json = false;
 };
@@ -47,9 +49,28 @@ std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
                    .limit = "only with --mask",
                    .remedy = "name the mask of a tile that another program made"});
     }
-    return verify_path(settings.path, session.execution_showing("verify"));
+    std::vector<VerifyItem> items;
+    for (const auto& path : settings.paths) {
+      const auto found = verify_path(path, session.execution_showing("verify"));
+      items.insert(items.end(), found.begin(), found.end());
+    }
+    return items;
   }
-  settings.foreign.tile = settings.path;
+  const std::filesystem::path& tile = settings.paths.front();
+  if (settings.paths.size() > 1) {
+    throw Error({.code = ErrorCode::usage,
+                 .what = fmt::format("given with {} files", settings.paths.size()),
+                 .where = "--mask",
+                 .limit = "one retarget tile",
+                 .remedy = "measure them one by one"});
+  }
+  const auto& like = static_cast<const RetargetEntry&>(settings.retarget.with_output(tile.string()));
+  settings.foreign.tile = tile;
+  settings.foreign.to = like.to;
+  settings.foreign.channel = like.channel;
+  settings.foreign.form = like.outputs.front().form;
+  settings.foreign.metric = like.problem.metric;
+  settings.foreign.reach = like.problem.reach;
   if (!settings.step && settings.foreign.to.empty()) {
     throw Error({.code = ErrorCode::usage,
                  .what = "is missing",
@@ -65,11 +86,15 @@ std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
 void print(const std::vector<VerifyItem>& items, std::int64_t failed, const Settings& settings,
            Session& session) {
   if (settings.json) {
-    Json result{{"path", settings.path.string()},
+    Json result{{"path", settings.paths.front().string()},
                 {"pass", failed == 0},
                 {"checked", items.size()},
                 {"failed", failed},
                 {"items", Json::array()}};
+    if (settings.paths.size() > 1) {
+      result.erase("path");
+      for (const auto& path : settings.paths) result["paths"].push_back(path.string());
+    }
     for (const auto& item : items) result["items"].push_back(to_json(item));
     return session.output.write_result(result, true);
   }
@@ -87,38 +112,38 @@ void print(const std::vector<VerifyItem>& items, std::int64_t failed, const Sett
 /// Files of others are a question that this verb does not answer, which is no failed verification.
 void throw_if_failed(const std::vector<VerifyItem>& items, std::int64_t failed, const Settings& settings) {
   if (failed == 0) return;
+  const std::string where = settings.paths.size() == 1 ? settings.paths.front().string()
+                                                       : fmt::format("{} paths", settings.paths.size());
   const auto count = [&](auto property) { return std::count_if(items.begin(), items.end(), property); };
   const auto foreign = count([](const auto& item) { return item.check == "foreign"; });
   if (foreign == static_cast<std::int64_t>(items.size())) {
     throw Error({.code = ErrorCode::invalid_input,
                  .what = "nothing here was written by bn, so it claims nothing to verify",
-                 .where = settings.path.string(),
+                 .where = where,
                  .limit = "",
                  .remedy =
                      "bn spectrum --check judges masks of others, bn verify TILE --mask MASK --step X,Y "
                      "their retarget tiles"});
   }
+  const auto sources = count([](const auto& item) { return item.check == "source" && !item.pass; });
   throw Error({.code = ErrorCode::verification_failed,
                .what = fmt::format("{} of {} checks failed", failed, items.size()),
-               .where = settings.path.string(),
+               .where = where,
                .limit = "",
                .remedy = !settings.foreign.mask.empty() ? ""
                          : foreign == failed            ? "take the files of others out of the folder"
-                                                        : "bake what failed again"});
+                         : sources == failed ? "put the mask where the tile names it, or bake the tile again"
+                                             : "bake what failed again"});
 }
 
 void declare_foreign(Arguments& arguments, Settings& settings) {
-  constexpr const char* kGroup = "For a retarget tile of another program";
+  constexpr const char* kHeading = "For a retarget tile of another program";
   ForeignTile& tile = settings.foreign;
-  const auto group = [&] { arguments.in_group(kGroup); };
+  const auto group = [&] { arguments.in_group(kHeading); };
   arguments.option("--mask", tile.mask, file_path(),
                    "The mask that the tile is for: measure the tile on it.");
   group();
-  arguments.option("--to", tile.to, file_path(),
-                   "The mask of the next frame, where it is not --mask moved by the step.");
-  group();
-  arguments.option("--channel", tile.channel, integer_in(0, 63), "The channel of the mask, 0 for red.");
-  group();
+  settings.retarget.declare_some(arguments, {"to", "channel"}, kHeading);
   arguments.option("--step", settings.step, offset(), "How far the mask moves from frame to frame.");
   group();
   arguments.option("--motion", settings.motion, offset(), "The motion that the tile is for.");
@@ -126,17 +151,7 @@ void declare_foreign(Arguments& arguments, Settings& settings) {
   arguments.option("--encoding", tile.zero_level, encoding(),
                    "What was added to a move before it was stored.");
   group();
-  arguments.option("--form", tile.form,
-                   choice_of<MoveForm>({{"scatter", MoveForm::scatter}, {"gather", MoveForm::gather}}),
-                   "What a pixel says: where its seed goes, or where its seed comes from.");
-  group();
-  arguments.option("--metric", tile.metric, choice_of<Metric>({{"l1", Metric::l1}, {"l2", Metric::l2}}),
-                   "Cost of a difference of levels: its size or its square.");
-  group();
-  arguments.option("--reach", tile.reach,
-                   choice_of<Reach>({{"chebyshev", Reach::chebyshev}, {"euclidean", Reach::euclidean}}),
-                   "How the length of a move is measured.");
-  group();
+  settings.retarget.declare_some(arguments, {"form", "metric", "reach"}, kHeading);
   arguments.option("--radius", tile.radius, integer_in(0, 32),
                    "What no move may pass; 0: the farthest move that the tile has.");
   group();
@@ -148,7 +163,7 @@ Verb verify_verb() {
   const auto settings = std::make_shared<Settings>();
   Verb verb;
   verb.name = "verify";
-  verb.summary = "Recompute every figure a file or a folder of files claims.";
+  verb.summary = "Recompute every figure that files and folders of files claim.";
   verb.examples = {{"bn verify out", "every texture of a bake, and its manifest"},
                    {"bn verify tile.png", "one file: bijection, radius, energy, bound, hash"},
                    {"bn verify out --json", "the verdicts for a program"},
@@ -165,13 +180,8 @@ Verb verify_verb() {
       "With --mask the file is a retarget tile that another program made: whether it is a bijection, how far "
       "it "
       "moves, its energy, and how far that is above the proven optimum.";
-  verb.arguments.positional("PATH", settings->path,
-                            {.placeholder = "",
-                             .allowed = "",
-                             .parse = file_path().parse,
-                             .show = {},
-                             .completion = Completion::file},
-                            "A file, or a folder with everything below it.");
+  verb.arguments.positional_list("PATH", settings->paths, file_path(),
+                                 "Files, and folders with everything below them.");
   verb.arguments.flag("--json", settings->json, true, "Print the verdicts as JSON.");
   declare_foreign(verb.arguments, *settings);
   verb.run = [settings](Session& session) {

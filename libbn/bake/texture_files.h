@@ -15,10 +15,6 @@ void check_texture_writable(const std::filesystem::path& path, int depth, Sample
 /// A picture goes to its path as it is; the slices of a volume as write_volume() says.
 void write_texture(const std::filesystem::path& path, const Picture& picture, const Metadata& metadata);
 
-/// Whether writing to `output`, a file or a pattern, could replace one of the files of `input`, which is a
-/// file, a folder of slices or a pattern.
-bool would_replace(const std::filesystem::path& output, const std::filesystem::path& input);
-
 /// The pattern of the volume that a file is a slice of: the path that its recipe names, if that asks for a
 /// number and the name of the file is such a name.
 std::optional<std::filesystem::path> pattern_of_slice(const std::filesystem::path& file,

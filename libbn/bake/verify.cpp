@@ -8,6 +8,7 @@
 
 #include "bake/inputs.h"
 #include "bake/manifest.h"
+#include "bake/paths.h"
 #include "bake/texture_files.h"
 #include "bn/bake.h"
 #include "bn/error.h"
@@ -101,9 +102,11 @@ class FileVerifier : public Checks {
 };
 
 bool is_ours_by_name(const fs::path& path) {
+  if (path.filename().string().starts_with('.')) return false;
   static const std::vector<std::string> kExtensions = {".png",  ".exr", ".tif", ".tiff",
                                                        ".ktx2", ".dds", ".h",   ".bin"};
-  return std::find(kExtensions.begin(), kExtensions.end(), path.extension().string()) != kExtensions.end();
+  return std::find(kExtensions.begin(), kExtensions.end(), lower_case_extension(path.string())) !=
+         kExtensions.end();
 }
 
 void verify_manifest(const fs::path& path, std::vector<VerifyItem>& items, const Execution& execution) {
@@ -161,11 +164,15 @@ fs::path whole_of(const fs::path& file, const Execution& execution) {
 
 std::vector<VerifyItem> verify_path(const fs::path& path, const Execution& execution) {
   std::error_code failed;
+  std::vector<VerifyItem> items;
   if (!fs::exists(path, failed)) {
+    if (has_number(path)) {
+      FileVerifier(path, execution, items).verify();
+      return items;
+    }
     throw Error(
         {.code = ErrorCode::io, .what = "does not exist", .where = path.string(), .limit = "", .remedy = ""});
   }
-  std::vector<VerifyItem> items;
   if (!fs::is_directory(path)) {
     if (is_ours_by_name(path)) {
       FileVerifier(whole_of(path, execution), execution, items).verify();

@@ -9,6 +9,7 @@
 #include "bake/kinds/retarget_source.h"
 #include "bake/texture_files.h"
 #include "bn/error.h"
+#include "core/utf8.h"
 
 namespace bn {
 
@@ -71,8 +72,23 @@ Execution metered(const Execution& execution, BakeMeter& meter) {
 
 /// The recipe that a file will carry must be one: this holds the options to the ranges of a recipe,
 /// and paths to text that TOML can hold, before any work.
-void check_recipes(const std::vector<OutputFile>& files) {
+void check_recipes(const Entry& entry, const std::vector<OutputFile>& files) {
+  const auto check_name = [](const std::string& name) {
+    if (is_utf8(name)) return;
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "its name is not UTF-8, and files record it as text",
+                 .where = name,
+                 .limit = "UTF-8",
+                 .remedy = "give the file another name"});
+  };
+  const Options options = options_of(entry);
+  for (const Option& option : options.list()) {
+    if (!option.names_file || !option.applies()) continue;
+    const Value value = option.get();
+    if (const auto* const name = std::get_if<std::string>(&value)) check_name(*name);
+  }
   for (const OutputFile& file : files) {
+    check_name(file.name);
     try {
       parse_recipe(file.recipe, file.name, "");
     } catch (const Error& error) {
@@ -86,7 +102,7 @@ void check_recipes(const std::vector<OutputFile>& files) {
 /// What can be checked of an entry's outputs before the work starts.
 std::vector<OutputFile> checked_files(const Entry& entry, const std::vector<Input>& inputs) {
   const std::vector<OutputFile> files = free_output_files(entry);
-  check_recipes(files);
+  check_recipes(entry, files);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const int depth = entry.output_depth(i, shapes_of(inputs));
     check_texture_writable(files[i].path, depth, entry.output_type(i), entry.output_channels(i));
@@ -150,7 +166,7 @@ JobRecord make_entry(const Entry& given, const Execution& execution, const BakeE
 
 BakedEntry bake_entry(const Entry& entry, const Execution& execution) {
   const std::vector<OutputFile> files = free_output_files(entry);
-  check_recipes(files);
+  check_recipes(entry, files);
   BakedEntry baked;
   baked.record =
       make_files(entry, read_inputs(entry, execution), files, execution,

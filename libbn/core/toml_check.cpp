@@ -8,6 +8,8 @@
 
 #include "core/toml_check.h"
 
+#include "core/utf8.h"
+
 namespace bn::document {
 namespace {
 
@@ -65,6 +67,11 @@ void check_toml(std::string_view text, Diagnostics& diagnostics) {
   for (int line = 1; !text.empty(); ++line) {
     const std::string_view here = text.substr(0, text.find('\n'));
     text.remove_prefix(here.size() < text.size() ? here.size() + 1 : here.size());
+    if (!is_utf8(here)) {
+      diagnostics.add(line, "text that is not UTF-8", "UTF-8, in names of files too",
+                      "save the text as UTF-8, and rename files whose names are not");
+      continue;
+    }
     const std::string_view problem = problem_of(here, open);
     if (!problem.empty())
       diagnostics.add(line, std::string(problem), "TOML 1.0, without strings of several lines");

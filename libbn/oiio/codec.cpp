@@ -86,6 +86,7 @@ StoredType stored_type(const OIIO::ImageSpec& spec, const std::string& name) {
     case TypeDesc::UINT16:
       return {TypeDesc::UINT16, SampleType::u16};
     case TypeDesc::HALF:
+      return {TypeDesc::HALF, SampleType::f16};
     case TypeDesc::FLOAT:
       return {TypeDesc::FLOAT, SampleType::f32};
     case TypeDesc::INT8:
@@ -195,6 +196,7 @@ std::vector<std::string> channel_names(int channels) {
 TypeDesc type_desc(SampleType type) {
   return type == SampleType::u8    ? TypeDesc::UINT8
          : type == SampleType::u16 ? TypeDesc::UINT16
+         : type == SampleType::f16 ? TypeDesc::HALF
                                    : TypeDesc::FLOAT;
 }
 

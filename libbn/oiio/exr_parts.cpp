@@ -41,18 +41,20 @@ class MemoryWriter : public Imf::OStream {
 
 texture::Bytes encode_exr_parts(const Image& image, const std::vector<std::string>& channel_names,
                                 const std::string& description) {
+  const Imf::PixelType type = image.type == SampleType::f16 ? Imf::HALF : Imf::FLOAT;
+  const std::size_t sample = bytes_per_sample(image.type);
   std::vector<Imf::Header> headers;
   for (int z = 0; z < image.depth; ++z) {
     Imf::Header header(image.size.width, image.size.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     header.setName(fmt::format("slice_{:05}", z));
     header.setType(Imf::SCANLINEIMAGE);
-    for (const std::string& name : channel_names) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+    for (const std::string& name : channel_names) header.channels().insert(name, Imf::Channel(type));
     if (z == 0 && !description.empty()) Imf::addComments(header, description);
     headers.push_back(header);
   }
   texture::Bytes bytes;
-  const std::size_t pixel = channel_names.size() * sizeof(float);
+  const std::size_t pixel = channel_names.size() * sample;
   const std::size_t row = pixel * static_cast<std::size_t>(image.size.width);
   const std::size_t slice = row * static_cast<std::size_t>(image.size.height);
   try {
@@ -64,7 +66,7 @@ texture::Bytes encode_exr_parts(const Image& image, const std::vector<std::strin
           const_cast<std::byte*>(image.samples.data() + static_cast<std::size_t>(z) * slice));
       Imf::FrameBuffer buffer;
       for (std::size_t c = 0; c < channel_names.size(); ++c)
-        buffer.insert(channel_names[c], Imf::Slice(Imf::FLOAT, samples + c * sizeof(float), pixel, row));
+        buffer.insert(channel_names[c], Imf::Slice(type, samples + c * sample, pixel, row));
       Imf::OutputPart part(file, z);
       part.setFrameBuffer(buffer);
       part.writePixels(image.size.height);

@@ -13,7 +13,7 @@ texture::Decoded decode_jpeg(texture::ByteView bytes, const std::string& name, c
 texture::Decoded decode_gif(texture::ByteView bytes, const std::string& name, const Execution& execution);
 texture::Decoded decode_webp(texture::ByteView bytes, const std::string& name, const Execution& execution);
 
-/// A volume of floats, a part a slice.
+/// A volume of floats or half floats, a part a slice.
 texture::Bytes encode_exr_parts(const Image& image, const std::vector<std::string>& channel_names,
                                 const std::string& description);
 

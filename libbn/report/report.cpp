@@ -118,7 +118,8 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
   report::Collection found = report::collect(options, quiet);
   const std::size_t textures = found.textures.size(), sets = found.retarget_sets.size();
   if (textures + sets == 0) {
-    throw Error({.code = found.readable == 0 ? ErrorCode::io : ErrorCode::invalid_input,
+    if (found.first_fault) throw Error(*found.first_fault);
+    throw Error({.code = ErrorCode::invalid_input,
                  .what = found.notes.empty() ? "nothing to report on" : found.notes.front(),
                  .where = options.inputs.front().string(),
                  .limit = "",

@@ -17,6 +17,7 @@
 #include "bn/error.h"
 #include "bn/judgement.h"
 #include "bn/retarget.h"
+#include "bn/volume.h"
 #include "report/candidates.h"
 
 namespace bn::report {
@@ -56,7 +57,6 @@ class Collector {
     throw_if_stopped(execution_);
     try {
       FileContent content = read_image(candidate.path, execution_);
-      ++collection_.readable;
       if (!content.metadata_fault.empty()) {
         note(candidate.name, fmt::format("its metadata cannot be read ({}), so it is taken as a picture",
                                          content.metadata_fault));
@@ -80,49 +80,30 @@ class Collector {
       }
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
+      keep_fault(error);
       note(candidate.name, error.info().what);
     }
   }
 
-  void add_volume(const std::string& name, const std::vector<Candidate>& slices) {
-    Texture volume;
-    volume.name = name;
-    std::string at = name;
+  void add_volume(const std::string& name, std::span<const fs::path> paths) {
     try {
-      for (const Candidate& slice : slices) {
-        at = slice.name;
-        throw_if_stopped(execution_);
-        const FileContent content = read_image(slice.path, execution_);
-        ++collection_.readable;
-        const Shape shape{content.image.size.width, content.image.size.height, volume.shape.depth};
-        if (volume.samples.value.empty()) {
-          volume.shape = {shape.width, shape.height, 1};
-          volume.type = content.image.type;
-          volume.metadata = content.metadata;
-          check_memory(execution_,
-                       static_cast<std::uint64_t>(shape.width) * static_cast<std::uint64_t>(shape.height) *
-                           slices.size() * 64,
-                       name);
-        } else if (shape != volume.shape || content.image.type != volume.type) {
-          return note(
-              slice.name,
-              fmt::format("a slice of another size or depth than the first, so {} is left out", name));
-        } else {
-          ++volume.shape.depth;
-        }
-        append_samples(volume.samples, samples_of_channel(content.image, 0));
-      }
+      const Volume read = read_volume(paths, {}, execution_);
+      collection_.notes.insert(collection_.notes.end(), read.notes.begin(), read.notes.end());
+      if (read.image.depth < 2) return note(name, "a volume needs at least two slices");
+      check_memory(execution_, static_cast<std::uint64_t>(read.image.shape().count()) * 64, name);
+      Texture volume;
+      volume.name = name;
+      volume.shape = read.image.shape();
+      volume.samples = samples_of_channel(read.image, 0);
+      volume.type = read.image.type;
+      volume.metadata = read.metadata;
+      check_finite(volume);
+      keep(std::move(volume));
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
-      return note(at, fmt::format("{}, so the volume {} is left out", error.info().what, name));
+      keep_fault(error);
+      note(error.info().where, fmt::format("{}, so the volume {} is left out", error.info().what, name));
     }
-    if (volume.shape.depth < 2) return note(name, "a volume needs at least two slices");
-    try {
-      check_finite(volume);
-    } catch (const Error& error) {
-      return note(name, error.info().what);
-    }
-    keep(std::move(volume));
   }
 
   /// Gives every set the levels of its mask.
@@ -161,6 +142,10 @@ class Collector {
  private:
   void note(const std::string& name, std::string_view what) {
     collection_.notes.push_back(fmt::format("{}: {}", name, what));
+  }
+
+  void keep_fault(const Error& error) {
+    if (!collection_.first_fault) collection_.first_fault = error.info();
   }
 
   void keep(Texture texture) {
@@ -249,8 +234,8 @@ class Collector {
     const Metadata& metadata = *content.metadata;
     std::vector<RetargetSet::Tile> tiles;
     const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(metadata.tiles.size()))));
-    if (metadata.tiles.empty() || !metadata.facts.get<Offset>("step") || !metadata.facts.get<int>("radius") || *metadata.facts.get<int>("radius") < 1 ||
-        *metadata.facts.get<int>("radius") > 32 ||
+    if (metadata.tiles.empty() || !metadata.facts.get<Offset>("step") || !metadata.facts.get<int>("radius") ||
+        *metadata.facts.get<int>("radius") < 1 || *metadata.facts.get<int>("radius") > 32 ||
         (metadata.kind == "retarget-atlas" && side * side != static_cast<int>(metadata.tiles.size())) ||
         (metadata.kind == "retarget-tile" && metadata.tiles.size() != 1) ||
         content.image.size.width % side != 0 || content.image.size.height % side != 0) {
@@ -263,11 +248,13 @@ class Collector {
       if (metadata.facts.get<std::string>("form") == "gather") move = invert_moves(move);
       tiles.push_back({metadata.tiles[i], std::move(move)});
     }
-    const std::string key =
-        fmt::format("{} {} {},{} {} {} {} {} {}x{}", metadata.facts.get<std::string>("source_hash").value_or(""),
-                    metadata.facts.get<int>("source_channel").value_or(0), metadata.facts.get<Offset>("step")->x, metadata.facts.get<Offset>("step")->y, *metadata.facts.get<int>("radius"),
-                    metadata.facts.get<std::string>("reach").value_or(""), metadata.facts.get<std::string>("metric").value_or(""), metadata.facts.get<bool>("wrap").value_or(true),
-                    size.width, size.height);
+    const std::string key = fmt::format(
+        "{} {} {},{} {} {} {} {} {}x{}", metadata.facts.get<std::string>("source_hash").value_or(""),
+        metadata.facts.get<int>("source_channel").value_or(0), metadata.facts.get<Offset>("step")->x,
+        metadata.facts.get<Offset>("step")->y, *metadata.facts.get<int>("radius"),
+        metadata.facts.get<std::string>("reach").value_or(""),
+        metadata.facts.get<std::string>("metric").value_or(""),
+        metadata.facts.get<bool>("wrap").value_or(true), size.width, size.height);
     auto place = set_of_.find(key);
     if (place == set_of_.end()) {
       place = set_of_.emplace(key, collection_.retarget_sets.size()).first;
@@ -308,34 +295,28 @@ class Collector {
 Collection collect(const ReportOptions& options, const Execution& execution) {
   Collection collection;
   Collector collector(collection, execution);
-  std::vector<Candidate> named;
+  std::vector<fs::path> slices;
   for (const fs::path& input : options.inputs) {
     std::error_code error;
-    if (fs::is_directory(input, error)) {
+    if (!fs::is_directory(input, error)) {
+      if (options.volume) {
+        slices.push_back(input);
+      } else {
+        collector.add({input, input.generic_string(), {}});
+      }
+    } else if (options.volume) {
+      collector.add_volume(input.string(), std::span(&input, 1));
+    } else {
       const auto found = candidates_in(input, options.inputs.size() > 1, execution, collection.notes);
       if (found.empty())
         collection.notes.push_back(fmt::format("{}: no textures in this folder", input.string()));
-      if (options.volume) {
-        if (!found.empty()) collector.add_volume(input.string(), found);
-      } else {
-        for (const Candidate& candidate : found) collector.add(candidate);
-      }
-    } else {
-      named.push_back({input, input.generic_string(), {}});
-      if (!options.volume) collector.add(named.back());
+      for (const Candidate& candidate : found) collector.add(candidate);
     }
   }
-  if (options.volume && !named.empty()) {
-    // As bn spectrum takes them.
-    const auto given = named;
-    std::sort(named.begin(), named.end(),
-              [](const Candidate& a, const Candidate& b) { return natural_less(a.name, b.name); });
-    if (!std::equal(given.begin(), given.end(), named.begin(),
-                    [](const Candidate& a, const Candidate& b) { return a.name == b.name; })) {
-      collection.notes.push_back(
-          "The slices are taken in the order of their numbers, not in the order given.");
-    }
-    collector.add_volume(fmt::format("{} and {} more", named[0].name, named.size() - 1), named);
+  if (!slices.empty()) {
+    const std::string first = slices[0].generic_string();
+    collector.add_volume(slices.size() == 1 ? first : fmt::format("{} and {} more", first, slices.size() - 1),
+                         slices);
   }
   collector.find_masks();
   return collection;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/spectrum.h"
 #include "bn/texture.h"
@@ -48,7 +49,7 @@ struct Collection {
   std::vector<Texture> textures;
   std::vector<RetargetSet> retarget_sets;
   std::vector<std::string> notes;
-  int readable = 0;  ///< files that were read
+  std::optional<ErrorInfo> first_fault;  ///< of what could not be read
 };
 
 Collection collect(const ReportOptions& options, const Execution& execution);

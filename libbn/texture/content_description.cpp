@@ -40,10 +40,13 @@ void add_spatiotemporal(std::vector<std::string>& sentences, const Image& image,
 void add_moves(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
   const bool gather = metadata.facts.get<std::string>("form") == "gather";
   const bool volume = metadata.facts.get<int>("step_z").has_value();
-  const char* const shift = image.type == SampleType::f32 ? "" : " + 128";
+  const bool shifted = image.type == SampleType::u8;
+  const char* const shift = shifted ? " + 128" : "";
+  std::string channels = fmt::format("Channel 0 is x{}, channel 1 is y{}", shift, shift);
+  if (image.channels > 2) channels += volume ? fmt::format(", channel 2 is z{}", shift) : ", channel 2 is 0";
+  if (image.channels > 3) channels += fmt::format(", channel 3 is {}", shifted ? 255 : 1);
   sentences.push_back(
-      fmt::format("Channel 0 is x{}, channel 1 is y{}, channel 2 is {}{}: {}, in pixels.", shift, shift,
-                  volume ? "z" : "0", volume ? shift : "",
+      fmt::format("{}: {}, in pixels.", channels,
                   gather ? "where the seed of a pixel comes from" : "where the seed of a pixel goes"));
   if (image.depth > 1 && !volume) {
     sentences.push_back(

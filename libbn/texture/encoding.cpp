@@ -114,25 +114,28 @@ Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type) 
 namespace {
 
 void check_move_type(SampleType type) {
-  if (type != SampleType::u8 && type != SampleType::f32)
-    fail_input("encode_moves", fmt::format("{} samples", name_of(type)), "8bit, float");
+  if (type == SampleType::u16)
+    fail_input("encode_moves", fmt::format("{} samples", name_of(type)), "8bit, half, float");
 }
 
-/// Component number `i`, counted through all pixels and channels.
+/// Component number `i`, counted through all pixels and channels. Half floats hold each exactly.
 void put_component(Image& image, std::size_t i, int value) {
+  const auto put = [&](auto sample) {
+    std::memcpy(image.samples.data() + i * sizeof sample, &sample, sizeof sample);
+  };
   const std::byte shifted = encode_component(value);  // checks the range
-  if (image.type == SampleType::u8) {
-    image.samples[i] = shifted;
-  } else {
-    const auto plain = static_cast<float>(value);
-    std::memcpy(image.samples.data() + i * sizeof plain, &plain, sizeof plain);
-  }
+  if (image.type == SampleType::u8) return put(shifted);
+  if (image.type == SampleType::f16) return put(texture::half_bits(static_cast<float>(value)));
+  put(static_cast<float>(value));
 }
 
 int component(const Image& image, std::size_t i) {
+  const auto get = [&](auto sample) {
+    std::memcpy(&sample, image.samples.data() + i * sizeof sample, sizeof sample);
+    return sample;
+  };
   if (image.type == SampleType::u8) return decode_component(image.samples[i]);
-  float value;
-  std::memcpy(&value, image.samples.data() + i * sizeof value, sizeof value);
+  const float value = image.type == SampleType::f16 ? texture::half_value(get(std::uint16_t{})) : get(0.0f);
   if (value >= -128.0f && value <= 127.0f && std::nearbyint(value) == value) return static_cast<int>(value);
   fail_input("decode_moves", fmt::format("a component of {}", value), "whole numbers -128..127");
 }
@@ -155,10 +158,9 @@ Image encode_moves(const Grid<Offset>& move, SampleType type) {
 
 Grid<Offset> decode_moves(const Image& image) {
   texture::check_image(image, "decode_moves");
-  if ((image.type != SampleType::u8 && image.type != SampleType::f32) || image.channels < 2 ||
-      image.depth > 1) {
+  if (image.type == SampleType::u16 || image.channels < 2 || image.depth > 1) {
     fail_input("decode_moves", texture::describe(image),
-               "one slice of 8bit, red = x + 128, green = y + 128, or of float, red = x, green = y");
+               "one slice of 8bit, red = x + 128, green = y + 128, or of half or float, red = x, green = y");
   }
   Grid<Offset> move(image.size);
   for (std::size_t i = 0; i < move.count(); ++i) {
@@ -187,9 +189,9 @@ Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z, SampleT
 
 VolumeMoves decode_volume_moves(const Image& image) {
   texture::check_image(image, "decode_volume_moves");
-  if ((image.type != SampleType::u8 && image.type != SampleType::f32) || image.channels < 3) {
+  if (image.type == SampleType::u16 || image.channels < 3) {
     fail_input("decode_volume_moves", texture::describe(image),
-               "8bit, red = x + 128, green = y + 128, blue = z + 128, or float without the 128");
+               "8bit, red = x + 128, green = y + 128, blue = z + 128, or half or float without the 128");
   }
   VolumeMoves moves{.move = Grid<Offset>(image.shape()), .z = Grid<std::int8_t>(image.shape())};
   for (std::size_t i = 0; i < moves.move.count(); ++i) {

@@ -123,6 +123,13 @@ void check_repeats(const std::vector<fs::path>& files, const std::vector<std::in
   }
 }
 
+/// The name that every path to one file has in common.
+fs::path canonical_path(const fs::path& path) {
+  std::error_code failed;
+  const fs::path found = fs::weakly_canonical(path, failed);
+  return failed ? fs::absolute(path).lexically_normal() : found;
+}
+
 std::vector<fs::path> files_of_pattern(const fs::path& pattern) {
   const texture::NumberedName name = texture::parse_numbered_name(pattern);
   return files_in(pattern.parent_path(), [&](const fs::path& path) {
@@ -151,6 +158,27 @@ std::vector<fs::path> image_files_below(const fs::path& folder) {
   }
   std::sort(files.begin(), files.end(), path_less);
   return files;
+}
+
+bool would_replace(const fs::path& output, const fs::path& input) {
+  std::vector<fs::path> read = {input};
+  try {
+    read = slice_files(std::span(&input, 1)).files;
+  } catch (const Error&) {
+    // What cannot be read is named where it is read.
+  }
+  texture::NumberedName pattern;
+  try {
+    pattern = texture::parse_numbered_name(output);
+  } catch (const Error&) {
+    // Two numbers in a name: no pattern.
+  }
+  const fs::path folder = canonical_path(output.parent_path().empty() ? fs::path(".") : output.parent_path());
+  return std::any_of(read.begin(), read.end(), [&](const fs::path& file) {
+    const fs::path found = canonical_path(file);
+    return found == canonical_path(output) || (found.parent_path() == folder && pattern.has_number &&
+                                               texture::number_in(pattern, found.filename().string()));
+  });
 }
 
 SliceFiles slice_files(std::span<const fs::path> inputs) {

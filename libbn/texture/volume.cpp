@@ -17,13 +17,29 @@ namespace {
 namespace fs = std::filesystem;
 using texture::fail_input;
 
+/// A note that several files share is given once.
+struct SharedNote {
+  std::string first_file, text;
+  std::size_t files = 1;
+};
+
 /// Takes over what a file says beside its samples.
-void note_file(const fs::path& path, FileContent& content, bool first, Volume& volume) {
+void note_file(const fs::path& path, FileContent& content, bool first, Volume& volume,
+               std::vector<SharedNote>& notes) {
+  const auto add = [&](const std::string& text) {
+    const auto known =
+        std::find_if(notes.begin(), notes.end(), [&](const SharedNote& note) { return note.text == text; });
+    if (known != notes.end()) {
+      ++known->files;
+    } else {
+      notes.push_back({path.string(), text});
+    }
+  };
   if (content.metadata && content.metadata->pixel_hash != pixel_hash(content.image)) {
     volume.as_recorded = false;
-    volume.notes.push_back(path.string() + ": its samples are not those it was written with");
+    add("its samples are not those it was written with");
   }
-  for (std::string& note : content.notes) volume.notes.push_back(path.string() + ": " + note);
+  for (const std::string& note : content.notes) add(note);
   if (volume.metadata_fault.empty()) volume.metadata_fault = std::move(content.metadata_fault);
   if (first) {
     volume.metadata = std::move(content.metadata);
@@ -116,11 +132,12 @@ Volume read_volume(std::span<const fs::path> inputs, AtlasLayout atlas, const Ex
     fail_input(inputs[0].string(), fmt::format("{} files, and columns for an atlas", count), "one file");
   }
   texture::check_depth(static_cast<std::int64_t>(count), inputs[0].string());
+  std::vector<SharedNote> notes;
   for (std::size_t i = 0; i < count; ++i) {
     throw_if_stopped(execution);
     const fs::path& path = volume.files[i];
     FileContent content = texture::read_any(path, execution);
-    note_file(path, content, i == 0, volume);
+    note_file(path, content, i == 0, volume, notes);
     if (count > 1) {
       append(path, std::move(content.image), count, execution, volume);
     } else {
@@ -128,6 +145,10 @@ Volume read_volume(std::span<const fs::path> inputs, AtlasLayout atlas, const Ex
       volume.image = atlas.columns != 0 ? cut_atlas(path, content.image, atlas) : std::move(content.image);
     }
     if (execution.progress) execution.progress(static_cast<double>(i + 1) / static_cast<double>(count));
+  }
+  for (const auto& [file, text, files] : notes) {
+    volume.notes.push_back(
+        fmt::format("{}{}: {}", file, files > 1 ? fmt::format(" and {} more", files - 1) : "", text));
   }
   return volume;
 }

@@ -32,7 +32,7 @@ struct Format {
 
 constexpr Format kFormats[] = {
     {"png", nullptr, true, false, false, false, 4},
-    {"exr", "openexr", false, true, false, true},
+    {"exr", "openexr", false, true, true, true},
     {"tif", "tiff", true, true, false, false, kMaxChannels, kMaxTiffDescription},
     {"tiff", "tiff", true, true, false, false, kMaxChannels, kMaxTiffDescription},
     {"bin", nullptr, true, true, true, true},

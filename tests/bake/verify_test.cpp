@@ -2,6 +2,7 @@
 // and the item of that claim must fail with a detail that tells what differs.
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 #include "bake/inputs.h"
 #include "bake/kinds/retarget_source.h"
@@ -66,6 +67,28 @@ TEST_F(Verify, SaysWhatIsWrongWithBrokenMetadata) {
   write_text_file(folder_ / "mask.h", text.replace(at, 7, "\"kint\":"));
   EXPECT_EQ(failed("mask.h"), "metadata ");
   EXPECT_TRUE(detail_.starts_with("broken: ")) << detail_;
+}
+
+TEST(VerifyRetarget, TilesOfEveryTypeThatAFormatHolds) {
+  const TemporaryFolder folder;
+  std::string text =
+      "version = 1\n[[mask]]\nname = 'm'\nsize = [12, 12]\noutputs = ['m.png']\n"
+      "[[retarget]]\nname = 'r'\nmask = 'm'\nradius = 2\nmotion = 1\noutputs = [\n";
+  std::map<std::string, SampleType> expected;
+  for (const auto& [word, type, extensions] :
+       std::vector<std::tuple<std::string, SampleType, std::vector<std::string>>>{
+           {"8bit", SampleType::u8, {"png", "tif", "bin", "h", "ktx2", "dds"}},
+           {"half", SampleType::f16, {"exr", "bin", "ktx2", "dds"}},
+           {"float", SampleType::f32, {"exr", "tif", "bin", "h", "ktx2", "dds"}}}) {
+    for (const std::string& extension : extensions) {
+      const std::string path = word + "." + extension;
+      text += "  { path = '" + path + "', type = '" + word + "' },\n";
+      expected[path] = type;
+    }
+  }
+  bake(parse_recipe(text + "]\n", "types.toml", ""), {.out_dir = folder});
+  for (const auto& [path, type] : expected) EXPECT_EQ(read_image(folder / path).image.type, type) << path;
+  EXPECT_EQ(failures(verify_path(folder)), "");
 }
 
 TEST_F(Verify, PassesEveryCheckOfABake) {

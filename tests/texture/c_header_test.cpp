@@ -104,5 +104,20 @@ TEST(CHeader, SaysWhatTheChannelsOfAnAtlasMean) {
   EXPECT_NE(sentences[1].find("x -1..1 from left to right"), std::string::npos) << sentences[1];
 }
 
+TEST(CHeader, NamesTheChannelsThatThereAre) {
+  Metadata metadata;
+  metadata.kind = "retarget-tile";
+  const auto first = [&](int channels, SampleType type) {
+    const std::string sentence = content_description(random_image({2, 2}, channels, type), metadata).at(0);
+    return sentence.substr(0, sentence.find(':'));
+  };
+  EXPECT_EQ(first(2, SampleType::u8), "Channel 0 is x + 128, channel 1 is y + 128");
+  EXPECT_EQ(first(3, SampleType::f16), "Channel 0 is x, channel 1 is y, channel 2 is 0");
+  metadata.facts.add("step_z", 1);
+  EXPECT_EQ(first(4, SampleType::u8),
+            "Channel 0 is x + 128, channel 1 is y + 128, channel 2 is z + 128, channel 3 is 255");
+  EXPECT_EQ(first(4, SampleType::f16), "Channel 0 is x, channel 1 is y, channel 2 is z, channel 3 is 1");
+}
+
 }  // namespace
 }  // namespace bn::texture

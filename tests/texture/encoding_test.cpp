@@ -88,7 +88,6 @@ TEST(EncodeMoves, FloatsAreTheMovesThemselves) {
   }
   EXPECT_EQ(decode_moves(image), move);
   expect_error(ErrorCode::invalid_input, [&] { encode_moves(move, SampleType::u16); });
-  expect_error(ErrorCode::invalid_input, [&] { encode_moves(move, SampleType::f16); });
   expect_error(ErrorCode::invalid_input, [&] {
     encode_moves(Grid<Offset>({1, 1}, Offset{128, 0}), SampleType::f32);
   });
@@ -99,6 +98,20 @@ TEST(EncodeMoves, FloatsAreTheMovesThemselves) {
       decode_moves(image_of<float>({1, 1}, 2, SampleType::f32, {0.0f, odd}));
     });
   }
+}
+
+TEST(EncodeMoves, HalfFloatsAreTheMovesThemselves) {
+  Grid<Offset> move({256, 1});
+  Grid<std::int8_t> z({256, 1});
+  for (int x = 0; x < 256; ++x) move[static_cast<std::size_t>(x)] = {x - 128, 127 - x};
+  for (int x = 0; x < 256; ++x) z[static_cast<std::size_t>(x)] = static_cast<std::int8_t>(x - 128);
+  const Image image = encode_moves(move, SampleType::f16);
+  EXPECT_TRUE(same_picture(to_float(image), encode_moves(move, SampleType::f32)));
+  EXPECT_EQ(decode_moves(image), move);
+  EXPECT_EQ(decode_volume_moves(encode_moves(move, z, SampleType::f16)).z, z);
+  expect_error(ErrorCode::invalid_input, [] {
+    decode_moves(to_half(image_of<float>({1, 1}, 2, SampleType::f32, {0.0f, 0.5f})));
+  });
 }
 
 TEST(EncodeMoves, RefusesWhatDoesNotFit) {

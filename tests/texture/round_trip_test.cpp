@@ -22,9 +22,9 @@ std::vector<Case> cases() {
       all.push_back({".bin", type, channels});
       if (channels <= 4) all.push_back({".ktx2", type, channels});
       if (channels <= 4 && (channels != 3 || is_float)) all.push_back({".dds", type, channels});
+      if (is_float || is_half) all.push_back({".exr", type, channels});
       if (is_half) continue;
       if (!is_float && channels <= 4) all.push_back({".png", type, channels});
-      if (is_float) all.push_back({".exr", type, channels});
       for (const char* extension : {".tif", ".TIFF", ".h"}) all.push_back({extension, type, channels});
     }
   }

@@ -154,6 +154,21 @@ TEST(SliceFiles, WhatIsNotThereIsNamed) {
   EXPECT_EQ(error_of_reading(folder / "missing.png")->code, ErrorCode::io);
 }
 
+TEST(SliceFiles, AnOutputThatWouldReplaceAnInputIsFound) {
+  const TemporaryFolder folder;
+  for (const char* name : {"s_0.png", "s_1.png", "m.png"}) put_bytes(folder / name, "");
+  std::filesystem::create_symlink(folder / "m.png", folder / "link.png");
+  EXPECT_TRUE(would_replace(folder / "m.png", folder / "m.png"));
+  EXPECT_TRUE(would_replace(folder / "link.png", folder / "m.png"));
+  EXPECT_TRUE(would_replace(folder / "sub/../m.png", folder.path()));
+  EXPECT_TRUE(would_replace(folder / "s_1.png", folder / "s_%d.png"));
+  EXPECT_TRUE(would_replace(folder / "s_%d.png", folder / "s_0.png"));
+  EXPECT_TRUE(would_replace(folder / "gone.png", folder / "gone.png"));
+  EXPECT_FALSE(would_replace(folder / "s_2.png", folder / "s_%d.png"));
+  EXPECT_FALSE(would_replace(folder / "n.png", folder / "m.png"));
+  EXPECT_FALSE(would_replace(folder / "t_%d.png", folder.path()));
+}
+
 TEST(Volume, SlicesUnlikeTheFirstAreNamed) {
   for (const Image& other : {random_image({4, 5}, 1, SampleType::u8), random_image({4, 4}, 3, SampleType::u8),
                              random_image({4, 4}, 1, SampleType::u16)}) {

@@ -102,6 +102,47 @@ TEST_F(BadInput, MissingFilesAndFoldersWhereFilesAreWanted) {
   expect_failure(2, {"noise", "void-and-cluster", "--size", "16x16", "-o", "folder.png"}, {"folder.png"});
 }
 
+TEST_F(BadInput, StandardStreamsAreNoFiles) {
+  write("mask.png", simple_mask(16));
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"info", "-"},
+                                             {"spectrum", "-"},
+                                             {"spectrum", "mask.png", "--csv", "-"},
+                                             {"verify", "-"},
+                                             {"retarget", "-"},
+                                             {"retarget", "mask.png", "--to", "-"},
+                                             {"retarget", "mask.png", "-o", "-"},
+                                             {"noise", "void-and-cluster", "--size", "8x8", "-o", "-"},
+                                             {"bake", "-"},
+                                             {"pack", "-", "-o", "p.png"},
+                                             {"report", "mask.png", "-o", "-"},
+                                             {"report", "-", "-o", "r.html"},
+                                             {"validate", "-"}})
+    expect_failure(1, arguments, {"reads and writes files only", "name a file"});
+  std::filesystem::create_symlink("/dev/stdout", scratch_ / "link.png");
+  expect_failure(2, {"noise", "void-and-cluster", "--size", "8x8", "-o", "link.png"},
+                 {"link.png", "pipes and devices are not written to", "write to a file"});
+  expect_failure(2, {"info", "link.png"},
+                 {"link.png", "pipes and devices are not read", "write a file first"});
+}
+
+TEST_F(BadInput, NamesThatAreNoText) {
+  const std::string latin = "m\xe9.png";
+  write("mask.png", simple_mask(16));
+  write(latin, simple_mask(16));
+  expect_failure(3, {"noise", "void-and-cluster", "--size", "8x8", "-o", "x" + latin},
+                 {"x" + latin, "not UTF-8"});
+  expect_failure(3, {"retarget", latin, "-o", "tile.png"}, {latin, "not UTF-8", "another name"});
+  expect_failure(3, {"retarget", "mask.png", "-o", "x" + latin}, {"x" + latin, "not UTF-8"});
+  write_bytes(scratch_ / "r.toml", "[[mask]]\nname = 'a'\nsize = [8, 8]\noutputs = ['" + latin + "']\n");
+  expect_failure(3, {"bake", "r.toml"}, {"r.toml:4", "not UTF-8", "names of files too"});
+  // What is only read may be called anything.
+  for (const char* verb : {"info", "spectrum"}) {
+    const auto result = run_bn({verb, latin, "--json"}, {.folder = scratch_.path()});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  }
+}
+
 TEST_F(BadInput, OutputsThatCannotBeWrittenFailBeforeTheWork) {
   // The size would take minutes; the answer comes at once.
   const std::vector<std::string> noise{
@@ -133,6 +174,21 @@ TEST_F(BadInput, AnOutputThatIsItsOwnSource) {
   expect_failure(3, {"retarget", "mask.png", "-o", "./mask.png"},
                  {"mask.png", "replace the image that it is made for", "another file"});
   EXPECT_EQ(read_bytes(scratch_ / "mask.png"), before);
+}
+
+TEST_F(BadInput, NoVerbReplacesWhatItReads) {
+  write("mask.png", simple_mask(16));
+  const std::string before = read_bytes(scratch_ / "mask.png");
+  expect_failure(3, {"spectrum", "mask.png", "--png", "mask.png"}, {"--png", "would replace mask.png"});
+  expect_failure(3, {"pack", "mask.png", "-o", "./mask.png"}, {"--out", "would replace mask.png"});
+  // Text over a picture is a slip, whether it is read or not.
+  for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+           {"spectrum", "mask.png", "--csv", "mask.png"},
+           {"report", "mask.png", "-o", "mask.png"},
+           {"retarget", "mask.png", "--method", "anneal", "--trace", "mask.png"}})
+    expect_failure(1, arguments, {"names a texture, and text is written there"});
+  EXPECT_EQ(read_bytes(scratch_ / "mask.png"), before);
+  expect_names({"mask.png"});
 }
 
 TEST_F(BadInput, RequestsAboveTheMemoryLimit) {

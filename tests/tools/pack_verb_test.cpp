@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "bn/noise.h"
 #include "bn/volume.h"
+#include "named_exr.h"
 #include "process.h"
 #include "textures.h"
 
@@ -70,6 +72,16 @@ TEST_F(Pack, AnyChannelOfAnyFileCanBeChosen) {
     EXPECT_EQ(samples_of_channel(three, channel).value,
               samples_of_channel(masks_[static_cast<std::size_t>(mask)], 0).value);
   }
+}
+
+TEST_F(Pack, ChannelsOfAnExrHaveNames) {
+  write_named_exr(scratch_ / "passes.exr", void_and_cluster({.size = {16, 16}}));
+  ASSERT_EQ(run({"pack", "passes.exr:Z", "passes.exr:0", "-o", "two.exr"}).exit_code, 0);
+  const Image passes = read_image(scratch_ / "passes.exr").image;
+  const Image two = read_image(scratch_ / "two.exr").image;
+  EXPECT_EQ(samples_of_channel(two, 0).value, samples_of_channel(passes, 1).value);
+  EXPECT_EQ(samples_of_channel(two, 1).value, samples_of_channel(passes, 0).value);
+  refused({"pack", "passes.exr:ids", "-o", "out.exr"}, "did you mean id?");
 }
 
 TEST_F(Pack, VolumesArePackedSliceBySlice) {

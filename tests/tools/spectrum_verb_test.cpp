@@ -11,7 +11,8 @@
 #include <sstream>
 
 #include "bn/noise.h"
-#include "bn/texture.h"
+#include "bn/volume.h"
+#include "named_exr.h"
 #include "process.h"
 #include "spectrum/reference_stbn.h"
 
@@ -182,7 +183,29 @@ TEST_F(SpectrumVerb, JudgesEveryChannelAndComparesThem) {
   packed("bad.png", bad);
   EXPECT_EQ(run({"bad.png", "--check", "blue"}).exit_code, 5);
   EXPECT_EQ(run({"bad.png", "--check", "blue", "--channel", "0"}).exit_code, 0);
-  EXPECT_EQ(run({"bad.png", "--channel", "none"}).exit_code, 1);
+  const ProcessResult unknown = run({"bad.png", "--channel", "none"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_NE(unknown.err.find("it has no channel none (allowed: 0..3)"), std::string::npos) << unknown.err;
+}
+
+TEST_F(SpectrumVerb, WhatSpoiltAllChannelsIsSaidFirst) {
+  std::vector<Grid<std::uint32_t>> four;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    four.push_back(void_and_cluster({.size = {64, 64}, .seed = seed}));
+  Image image = encode_masks(four, SampleType::u8);
+  for (std::size_t i = 0; i < image.samples.size(); ++i) {
+    const int alpha = std::to_integer<int>(image.samples[i / 4 * 4 + 3]);
+    if (i % 4 < 3)
+      image.samples[i] = static_cast<std::byte>(std::to_integer<int>(image.samples[i]) * alpha / 255);
+  }
+  write_image(scratch_ / "premultiplied.png", image, {});
+  const ProcessResult outcome = run({"premultiplied.png", "--check", "blue"});
+  EXPECT_EQ(outcome.exit_code, 5);
+  const std::string cause = "premultiplied.png\n      the colours are multiplied by alpha; ";
+  EXPECT_LT(outcome.out.find("FAIL  " + cause), outcome.out.find("premultiplied.png, channel 0"))
+      << outcome.out;
+  EXPECT_TRUE(outcome.err.starts_with("bn: check: premultiplied.png: the colours are multiplied by alpha"))
+      << outcome.err;
 }
 
 TEST_F(SpectrumVerb, CountsOneTextureOnceInWhateverEncoding) {
@@ -216,9 +239,49 @@ TEST_F(SpectrumVerb, PutsSlicesInOrderAndNamesWhatIsMissing) {
   arguments.insert(arguments.end(), {"--volume", "--check", "stbn"});
   const ProcessResult outcome = run(arguments);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.out.find("in the order of their numbers"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("put into numeric order"), std::string::npos) << outcome.out;
   std::erase(arguments, "s_7.png");
-  EXPECT_NE(run(arguments).out.find("slices are missing from the volume: 7"), std::string::npos);
+  EXPECT_NE(run(arguments).out.find("number 7 is missing between 0 and 15"), std::string::npos);
+}
+
+TEST_F(SpectrumVerb, FilesOfSeveralSlicesAndPatternsAreVolumes) {
+  const Image first = encode_mask(void_and_cluster({.size = {32, 32}}), SampleType::u8),
+              second = encode_mask(void_and_cluster({.size = {32, 32}, .seed = 2}), SampleType::u8);
+  const Image volume = stack_slices(std::vector{first, second});
+  for (const char* path : {"v.ktx2", "v.bin", "s_%d.png"}) {
+    write_volume(scratch_ / path, volume, {});
+    const ProcessResult outcome = run({path, "--json"});
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("textures").at(0).at("depth"), 2) << path;
+  }
+}
+
+TEST_F(SpectrumVerb, SlicesOfAStackJudgedOneByOneAreNoted) {
+  ASSERT_EQ(
+      run_bn({"noise", "spatiotemporal", "--size", "8x8x3", "-o", "t_%d.png"}, {.folder = scratch_.path()})
+          .exit_code,
+      0);
+  EXPECT_NE(run({"t_0.png", "t_1.png", "t_2.png"}).out.find("3 files say that they are slices; --volume"),
+            std::string::npos);
+  const std::string whole = run({"t_%d.png"}).out;
+  EXPECT_EQ(whole.find("--volume"), std::string::npos) << whole;
+}
+
+TEST_F(SpectrumVerb, AChannelIsChosenByTheNameThatTheFileGivesIt) {
+  write_named_exr(scratch_ / "passes.exr", void_and_cluster({.size = {32, 32}}));
+  const ProcessResult mask = run({"passes.exr", "--channel", "Z", "--check", "blue"});
+  EXPECT_EQ(mask.exit_code, 0) << mask.err;
+  EXPECT_NE(mask.out.find("passes.exr, channel Z\n"), std::string::npos) << mask.out;
+  EXPECT_EQ(run({"passes.exr", "--channel", "id", "--check", "blue"}).exit_code, 5);
+  const auto all = nlohmann::json::parse(run({"passes.exr", "--json"}).out).at("textures");
+  std::string names;
+  for (std::size_t i = 0; i < 3; ++i) names += all.at(i).at("channel_name").get<std::string>() + " ";
+  EXPECT_EQ(names, "R Z id ");
+  const ProcessResult unknown = run({"passes.exr", "--channel", "z"});
+  EXPECT_EQ(unknown.exit_code, 3);
+  EXPECT_NE(unknown.err.find("passes.exr: it has no channel z (allowed: R, Z, id, or 0..2)"),
+            std::string::npos)
+      << unknown.err;
 }
 
 TEST_F(SpectrumVerb, SaysWhatItCannotJudge) {
@@ -308,8 +371,8 @@ TEST_F(SpectrumVerb, RefusesWhatItCannotRead) {
   EXPECT_EQ(run({"mask.png", "--channel", "3"}).exit_code, 3);
   EXPECT_EQ(run({"mask.png", "narrow.png", "--volume"}).exit_code, 3);
   // What cannot be written is found before anything is read.
-  for (const char* option : {"--png", "--csv"}) {
-    const ProcessResult outcome = run({"absent.png", option, "no/out.png"});
+  for (const auto& [option, path] : {std::pair{"--png", "no/out.png"}, {"--csv", "no/out.csv"}}) {
+    const ProcessResult outcome = run({"absent.png", option, path});
     EXPECT_EQ(outcome.exit_code, 2);
     EXPECT_EQ(outcome.err.find("absent"), std::string::npos) << outcome.err;
   }

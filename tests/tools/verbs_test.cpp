@@ -148,6 +148,40 @@ TEST_F(Verbs, WhatIsNotOursIsNothingToVerify) {
   }
 }
 
+TEST_F(Verbs, SeveralPathsAreVerifiedAsOne) {
+  for (const char* name : {"a.png", "b.png"})
+    run({"noise", "void-and-cluster", "--size", "12x8", "-o", name});
+  const Json verdict = json({"verify", "a.png", "b.png", "--json"});
+  EXPECT_EQ(verdict.at("paths"), Json({"a.png", "b.png"}));
+  EXPECT_EQ(verdict.at("checked"), 8);
+  write_bytes(scratch_ / "b.png", "no picture");
+  run({"verify", "a.png", "b.png"}, 5);
+  EXPECT_NE(
+      run({"verify", "a.png", "b.png", "--mask", "a.png", "--step", "1,1"}, 1).err.find("one retarget tile"),
+      std::string::npos);
+}
+
+TEST_F(Verbs, ATileWithoutItsMaskAsksForTheMask) {
+  run({"noise", "void-and-cluster", "--size", "12x8", "-o", "m.png"});
+  run({"retarget", "m.png", "--radius", "2", "-o", "t.png"});
+  std::filesystem::remove(scratch_ / "m.png");
+  const auto result = run({"verify", "t.png"}, 5);
+  EXPECT_NE(result.err.find("1 of 6 checks failed; put the mask where the tile names it"), std::string::npos)
+      << result.err;
+}
+
+TEST_F(Verbs, HelpOfAMisspeltVerbNamesTheNearest) {
+  EXPECT_NE(run({"help", "nois"}, 1).err.find("did you mean bn help noise?"), std::string::npos);
+}
+
+TEST_F(Verbs, EveryLineOfHelpFitsEightyColumns) {
+  for (const char* verb : {"noise", "retarget", "spectrum", "study"}) {
+    std::istringstream lines(run({"help", verb}).out);
+    for (std::string line; std::getline(lines, line) && line != "Exit codes";)
+      EXPECT_LE(line.size(), 80u) << line;
+  }
+}
+
 TEST_F(Verbs, AQuietVerifyNamesWhatFails) {
   run({"noise", "void-and-cluster", "--size", "12x8", "-o", "m.png"});
   EXPECT_EQ(run({"verify", "m.png", "-q"}).out, "");

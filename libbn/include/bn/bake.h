@@ -196,7 +196,7 @@ struct VerifyItem {
 /// below and what its manifest.json lists. Recomputes everything: masks are baked and retarget tiles
 /// solved again from the source their metadata names, so it takes about as long as the bake.
 /// A file that cannot be read, or has no metadata of ours, is a failed item, not an exception.
-/// Errors: io (path missing), cancelled, over_limit.
+/// `path` may also be the pattern of a volume. Errors: io (path missing), cancelled, over_limit.
 std::vector<VerifyItem> verify_path(const std::filesystem::path& path, const Execution& execution = {});
 
 /// A retarget tile that another program made, and what is known of it.

@@ -87,6 +87,8 @@ struct RetargetOutput {
   Kind kind = Kind::tile;
   MoveForm form = MoveForm::scatter;
   Offset motion = {};  ///< of a tile; (0, 0) is the plain retarget tile
+  /// 8bit, half or float; none: float in .exr, else 8bit.
+  std::optional<SampleType> type = {};
   int line = 0;
 };
 
@@ -134,7 +136,6 @@ class RetargetEntry : public EntryOf<RetargetEntry, RetargetOutput> {
   void check(const Complain& complain) const override;
   void default_output(std::size_t output) override;
   Options output_options(std::size_t output) override;
-  /// 8bit; float in .exr, which holds nothing else.
   SampleType output_type(std::size_t output) const override;
   int output_channels(std::size_t output) const override;
   std::size_t input_output(const Entry& source) const override;

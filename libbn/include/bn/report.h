@@ -23,8 +23,8 @@ struct ReportOptions {
   std::filesystem::path csv_dir =
       {};                ///< empty, or the folder for one CSV file a plot; made if its parent exists
   bool compare = false;  ///< begin with all textures side by side and their curves in common plots
-  /// The inputs are volumes: each folder is one, its files its slices in name order (numbers by their value);
-  /// all files given by name are the slices of one more, in the same order.
+  /// The inputs are volumes, as read_volume() takes them: each folder is one; all files given by name are the
+  /// slices of one more.
   bool volume = false;
 };
 
@@ -46,9 +46,9 @@ inline constexpr int kMaxReportFiles = 20000;
 
 /// Writes the page, crash-safely. Plots need gnuplot in PATH: without it, and where it fails or takes over 60
 /// s, the page has tables and pictures and says so. Errors: io (`out` or `csv_dir` cannot be written, which
-/// is checked first; no input can be read), invalid_input (no inputs, or nothing in them that is a texture),
-/// over_limit, cancelled. A file that cannot be read while another can is a note, no error. Threads:
-/// execution.threads; any number gives the same bytes.
+/// is checked first); if no input can be read, the first one's error; invalid_input (no inputs, or nothing in
+/// them that is a texture), over_limit, cancelled. What cannot be read while something else can is a note, no
+/// error. Threads: execution.threads; any number gives the same bytes.
 ReportSummary write_report(const ReportOptions& options, const Execution& execution = {});
 
 /// The page of a validation study (`bn validate`), made of the files in its folder: tables,

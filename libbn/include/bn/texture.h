@@ -118,7 +118,7 @@ struct FileContent {
 /// Reads PNG, EXR, TIFF, KTX2, DDS, our own .bin and .h, BMP, GIF, HDR, JPEG, PBM, PGM, PPM, PFM and WebP
 /// (all known by their content), and TGA (known by the extension). Samples are those stored: no colour
 /// management, no multiplication by alpha, no scaling to a maxval. Palettes and 1, 2 and 4 bit grey are
-/// expanded to 8bit, half is widened to float; signed and 32 bit integers become floats of the same value,
+/// expanded to 8bit; signed and 32 bit integers become floats of the same value,
 /// rounded to 24 bits; what could only be read converted is refused (double; TIFF of grey from white to
 /// black, YCbCr or Lab; JPEG of CMYK). docs/files.md has the whole list. Recomputes nothing: a pixel hash
 /// that does not fit is for the caller to compare. Hostile headers are refused before memory is taken:
@@ -131,7 +131,7 @@ FileContent read_image(const std::filesystem::path& path, const Execution& execu
 
 /// Writes `image` in the format the extension names (upper or lower case):
 ///   .png         8bit, 16bit; 1..4 channels (the second of two and the fourth are straight alpha)
-///   .exr         float; volumes, a part a slice
+///   .exr         half, float; volumes, a part a slice
 ///   .tif, .tiff  8bit, 16bit, float
 ///   .bin         8bit, 16bit, half, float; volumes; layout in docs/files.md
 ///   .h           8bit, 16bit, float; volumes; no NaN or infinity
@@ -186,12 +186,12 @@ Image encode_mask(const Grid<std::uint32_t>& rank, SampleType type);
 /// than 64, masks of different shapes).
 Image encode_masks(std::span<const Grid<std::uint32_t>> ranks, SampleType type);
 
-/// Moves as RGB. 8bit: red = x + 128, green = y + 128, blue = 0. Float, for formats that hold nothing else:
+/// Moves as RGB. 8bit: red = x + 128, green = y + 128, blue = 0. Half and float:
 /// red = x, green = y, blue = 0. Each component -128..127, checked. Errors: invalid_input (a component that
 /// does not fit, a volume, another sample type).
 Image encode_moves(const Grid<Offset>& move, SampleType type = SampleType::u8);
-/// The inverse. Errors: invalid_input unless 8bit or float with at least two channels, of one slice, and, of
-/// floats, whole numbers -128..127.
+/// The inverse. Errors: invalid_input unless 8bit, half or float with at least two channels, of one slice,
+/// and, of the last two, whole numbers -128..127.
 Grid<Offset> decode_moves(const Image& image);
 
 /// Moves in a volume: `z` is the third axis of `move`, and of the same shape.
@@ -199,12 +199,12 @@ struct VolumeMoves {
   Grid<Offset> move;
   Grid<std::int8_t> z;
 };
-/// Moves in a volume as RGB, of as many slices. 8bit: red = x + 128, green = y + 128, blue = z + 128. Float:
-/// red = x, green = y, blue = z. Errors: invalid_input (an x or y outside -128..127, grids of different
-/// shapes, another sample type).
+/// Moves in a volume as RGB, of as many slices. 8bit: red = x + 128, green = y + 128, blue = z + 128. Half
+/// and float: red = x, green = y, blue = z. Errors: invalid_input (an x or y outside -128..127, grids of
+/// different shapes, another sample type).
 Image encode_moves(const Grid<Offset>& move, const Grid<std::int8_t>& z, SampleType type = SampleType::u8);
-/// The inverse. Errors: invalid_input unless 8bit or float with at least three channels, and, of floats,
-/// whole numbers -128..127.
+/// The inverse. Errors: invalid_input unless 8bit, half or float with at least three channels, and, of the
+/// last two, whole numbers -128..127.
 VolumeMoves decode_volume_moves(const Image& image);
 
 /// One channel of an image, for packing.

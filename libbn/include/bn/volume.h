@@ -46,6 +46,10 @@ struct SliceFiles {
 /// folder or pattern without images or with gaps; a number that comes twice); io.
 SliceFiles slice_files(std::span<const std::filesystem::path> inputs);
 
+/// Whether writing to `output`, a file or a pattern, could replace one of the files of `input`, which is a
+/// file, a folder of slices or a pattern. Links are followed. What cannot be read is taken for no file.
+bool would_replace(const std::filesystem::path& output, const std::filesystem::path& input);
+
 /// How slices lie in one picture: row by row, `columns` to a row. A vertical strip has one column, a
 /// horizontal one has one row.
 struct AtlasLayout {
