@@ -249,8 +249,8 @@ class Collector {
     const Metadata& metadata = *content.metadata;
     std::vector<RetargetSet::Tile> tiles;
     const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(metadata.tiles.size()))));
-    if (metadata.tiles.empty() || !metadata.facts.get<Offset>("step") || !metadata.facts.get<int>("radius") || *metadata.facts.get<int>("radius") < 1 ||
-        *metadata.facts.get<int>("radius") > 32 ||
+    if (metadata.tiles.empty() || !metadata.facts.get<Offset>("step") || !metadata.facts.get<int>("radius") ||
+        *metadata.facts.get<int>("radius") < 1 || *metadata.facts.get<int>("radius") > 32 ||
         (metadata.kind == "retarget-atlas" && side * side != static_cast<int>(metadata.tiles.size())) ||
         (metadata.kind == "retarget-tile" && metadata.tiles.size() != 1) ||
         content.image.size.width % side != 0 || content.image.size.height % side != 0) {
@@ -263,11 +263,13 @@ class Collector {
       if (metadata.facts.get<std::string>("form") == "gather") move = invert_moves(move);
       tiles.push_back({metadata.tiles[i], std::move(move)});
     }
-    const std::string key =
-        fmt::format("{} {} {},{} {} {} {} {} {}x{}", metadata.facts.get<std::string>("source_hash").value_or(""),
-                    metadata.facts.get<int>("source_channel").value_or(0), metadata.facts.get<Offset>("step")->x, metadata.facts.get<Offset>("step")->y, *metadata.facts.get<int>("radius"),
-                    metadata.facts.get<std::string>("reach").value_or(""), metadata.facts.get<std::string>("metric").value_or(""), metadata.facts.get<bool>("wrap").value_or(true),
-                    size.width, size.height);
+    const std::string key = fmt::format(
+        "{} {} {},{} {} {} {} {} {}x{}", metadata.facts.get<std::string>("source_hash").value_or(""),
+        metadata.facts.get<int>("source_channel").value_or(0), metadata.facts.get<Offset>("step")->x,
+        metadata.facts.get<Offset>("step")->y, *metadata.facts.get<int>("radius"),
+        metadata.facts.get<std::string>("reach").value_or(""),
+        metadata.facts.get<std::string>("metric").value_or(""),
+        metadata.facts.get<bool>("wrap").value_or(true), size.width, size.height);
     auto place = set_of_.find(key);
     if (place == set_of_.end()) {
       place = set_of_.emplace(key, collection_.retarget_sets.size()).first;
