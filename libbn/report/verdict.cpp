@@ -18,9 +18,19 @@ std::string allowed(double low, double high) {
 
 /// A picture that nobody calls a mask.
 bool is_a_picture(const Texture& texture, const Judgement& judgement) {
-  if (texture.shape.depth > 1 || (texture.metadata && texture.metadata->kind == "mask")) return false;
+  if (texture.shape.depth > 1 || (texture.metadata && (texture.metadata->kind == "mask" ||
+                                                       texture.metadata->kind == "spatiotemporal-mask"))) {
+    return false;
+  }
   return std::any_of(judgement.findings.begin(), judgement.findings.end(),
                      [](const Finding& finding) { return finding.cause == Cause::picture; });
+}
+
+/// A volume whose preset is for the filtered picture alone: its slices are blue noise, a pixel's series is
+/// not meant to be.
+bool is_for_a_filter(const Texture& texture) {
+  return texture.metadata && texture.metadata->kind == "spatiotemporal-mask" &&
+         texture.metadata->recipe.find("\npreset = \"filtered\"\n") != std::string::npos;
 }
 
 }  // namespace
@@ -30,8 +40,14 @@ Verdict verdict_of(const Texture& texture, const Analysis& analysis, const Execu
   Verdict verdict;
   Judgement& judgement = verdict.judgement;
   judgement = judge_texture({values, texture.shape, low, std::max(high, low + 1e-300)}, analysis,
-                            texture.shape.depth > 1 ? Check::stbn : Check::blue, execution);
+                            texture.shape.depth > 1 && !is_for_a_filter(texture) ? Check::stbn : Check::blue,
+                            execution);
   verdict.reasons = judgement.reasons;
+  if (texture.shape.depth > 1 && is_for_a_filter(texture)) {
+    verdict.reasons.emplace_back(
+        "judged by its slices: the preset filtered is for the blurred and averaged picture, not for one "
+        "pixel's series");
+  }
   std::string words = judgement.headline;
   if (is_a_picture(texture, judgement)) {
     verdict.reasons = {"not judged: it does not say that it is a mask, and it " +
