@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "report/html.h"
-#include "report/verdict.h"
 
 namespace bn::report {
 
@@ -63,24 +62,12 @@ std::string SliceBands::words() const {
                      worst(), number(of_slice[worst()].mean[band]));
 }
 
-std::string SliceBands::table() const {
-  std::string rows;
-  for (std::size_t band = 0; band < kBandEdges.size(); ++band) {
-    const auto less = [&](const BandPower& a, const BandPower& b) { return a.mean[band] < b.mean[band]; };
-    const auto [least, most] = std::minmax_element(of_slice.begin(), of_slice.end(), less);
-    if (std::isnan(least->mean[band])) continue;
-    double mean = 0.0;
-    for (const BandPower& slice : of_slice) mean += slice.mean[band] / static_cast<double>(of_slice.size());
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{} (slice {})</td></tr>\n",
-                        label_of(fmt::format("bands[{}]", band)), number(least->mean[band]), number(mean),
-                        number(most->mean[band]), most - of_slice.begin());
-  }
-  return fmt::format(
-      "<div class=\"wide\"><table class=\"merit-of-slices\"><caption><b>Slices by themselves.</b> Power of "
-      "each, by "
-      "band.</caption><thead><tr><th scope=\"col\">figure</th><th scope=\"col\">least</th><th "
-      "scope=\"col\">mean</th><th scope=\"col\">greatest</th></tr></thead><tbody>{}</tbody></table></div>\n",
-      rows);
+std::string SliceBands::greatest(std::size_t band) const {
+  const auto less = [&](const BandPower& a, const BandPower& b) { return a.mean[band] < b.mean[band]; };
+  const auto most = std::max_element(of_slice.begin(), of_slice.end(), less);
+  return std::isnan(most->mean[band])
+             ? "–"
+             : fmt::format("{} (slice {})", number(most->mean[band]), most - of_slice.begin());
 }
 
 }  // namespace bn::report

@@ -20,7 +20,8 @@ struct SliceBands {
 
   Plot plot(std::string file_name) const;
   std::string words() const;  ///< which slice is the worst, HTML
-  std::string table() const;  ///< least, mean and greatest by band, HTML
+  /// The greatest power of a slice in a band, and which slice it is; HTML.
+  std::string greatest(std::size_t band) const;
 };
 
 SliceBands slice_bands(const std::vector<double>& values, Shape shape, const Execution& execution);

@@ -155,10 +155,9 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
   plots += add_plot(histogram_plot(texture, file_name + "-histogram"), "Histogram",
                     fmt::format("Counts against an even spread. Largest deviation {}.",
                                 number(figures.histogram_max_deviation)));
-  std::string worst;
+  SliceBands slices;
   if (volume) {
-    const SliceBands slices = slice_bands(values, shape, execution);
-    worst = slices.table();
+    slices = slice_bands(values, shape, execution);
     main_plots += add_plot(slices.plot(file_name + "-slices"), "Power by slice", slices.words());
     RadialCurve time = radial_power(project(analysis.power, Projection::z));
     time.frequency.insert(time.frequency.begin(), 0.0);
@@ -175,8 +174,8 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
       std::isnan(section.grade) ? "" : badge_of("plain", "grade " + score_text(section.grade));
   section.html = fmt::format("<h2>{} {} {}</h2>\n{}{}", escaped(texture.name), verdict.badge_html, grade,
                              reasons_html(verdict), about(texture)) +
-                 gallery(view, execution) + "<div class=\"pair\">" + tiling(view) + "<div>" +
-                 merit_table(figures, verdict) + worst + "</div></div>\n" + levels(view, execution) +
+                 gallery(view, execution) + "<div class=\"pair\">" + tiling(view) +
+                 merit_table(figures, verdict, slices) + "</div>\n" + levels(view, execution) +
                  (volume ? volume_strips(view, execution) : "") + "<div class=\"plots two\">" + main_plots +
                  plots + "</div>\n";
   section.overview = overview_of(figures, verdict);

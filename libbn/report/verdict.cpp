@@ -103,16 +103,18 @@ std::string reasons_html(const Verdict& verdict) {
   return "<ul class=\"reasons\">" + items + "</ul>\n";
 }
 
-std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
+std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict, const SliceBands& slices) {
   const Judgement& judgement = verdict.judgement;
+  const bool volume = !slices.of_slice.empty();
   std::string rows;
   const auto row = [&](const std::string& label, const std::string& value, const std::string& limits,
-                       const std::string& best, const std::string& score, const std::string& mark) {
+                       const std::string& best, const std::string& score, const std::string& mark,
+                       const std::string& worst = "") {
     rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", label,
-        value, limits, best, score, mark);
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
+        label, value, limits, best, score, mark, volume ? fmt::format("<td>{}</td>", worst) : "");
   };
-  const auto with_threshold = [&](const std::string& name, double value) {
+  const auto with_threshold = [&](const std::string& name, double value, const std::string& worst = "") {
     std::string limits, best, score, mark;
     for (const JudgedFigure& judged : judgement.judged) {
       if (judged.figure == name) limits = allowed(judged.low, judged.high), mark = badge(judged.passed);
@@ -122,10 +124,10 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
       if (name != "anisotropy_db_mean") best = number(part.best);
       score = score_text(part.score);
     }
-    row(label_of(name), number(value), limits, best, score, mark);
+    row(label_of(name), number(value), limits, best, score, mark, worst);
   };
   for (std::size_t b = 0; b < figures.bands.mean.size(); ++b) {
-    with_threshold(fmt::format("bands[{}]", b), figures.bands.mean[b]);
+    with_threshold(fmt::format("bands[{}]", b), figures.bands.mean[b], volume ? slices.greatest(b) : "");
   }
   if (figures.shape.depth > 1) {
     with_threshold("temporal_power_at_0", figures.temporal_power_at_0);
@@ -149,8 +151,8 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
       "the least "
       "is the grade.</caption><thead><tr><th scope=\"col\">figure</th><th scope=\"col\">value</th><th "
       "scope=\"col\">allowed</th><th scope=\"col\">best known</th><th scope=\"col\">score</th><th "
-      "scope=\"col\">verdict</th></tr></thead><tbody>{}</tbody></table></div>\n",
-      rows);
+      "scope=\"col\">verdict</th>{}</tr></thead><tbody>{}</tbody></table></div>\n",
+      volume ? "<th scope=\"col\">worst slice</th>" : "", rows);
 }
 
 }  // namespace bn::report

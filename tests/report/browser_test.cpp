@@ -136,8 +136,9 @@ TEST_F(Browser, ShowsVolumesAndLargePictures) {
   write_volume(folder / "textures");
   ASSERT_EQ(write_report({.inputs = {folder / "textures"}, .out = folder / "r.html", .volume = true}).volumes,
             1);
-  // Four pictures, tiling, thresholds, slices, the mean of 1, 4 and 16 frames.
-  expect_page(4 + 1 + 30 + 8 + 3, 5);
+  // Four pictures, tiling, thresholds, slices, the mean of 1, 4 and 16 frames. Plots: as a texture has, in
+  // time, by slice.
+  expect_page(4 + 1 + 30 + 8 + 3, 6);
   write_mask(folder / "large.png", 400, 1);
   write_report({.inputs = {folder / "large.png"}, .out = folder / "r.html"});
   expect_page(5 + 30, 4);
