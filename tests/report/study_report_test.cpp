@@ -8,46 +8,19 @@
 #include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
+#include "report/fixtures.h"
 
-namespace bn {
+namespace bn::report {
 namespace {
 
 class StudyReport : public testing::Test {
  protected:
   StudyReport() : folder_(std::filesystem::path(testing::TempDir()) / "bn_study_report") {
     std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_ / "room");
-    write("study.json",
-          R"({"size":[4,2],"bounces":2,"frames":1,"first_counted":1,"block":8,"reference_paths":64,
-              "device":"a <device>","scenes":[{"name":"room","about":"A room & a lamp.","moves":false,
-              "reference_rmse":0.01}]})");
-    write("summary.csv",
-          "scene,variant,region,db_against_white\nroom,white,picture,0.00\nroom,sort,picture,-3.25\n"
-          "room,retarget,picture,-9.00\nroom,reproject,picture,-9.00\n");
-    write(
-        "errors.csv",
-        "scene,variant,frame,region,rmse,rmse_blur_1.5,power_to_0.1,reference_power_to_0.1,flicker,"
-        "rmse_exponential_average\n"
-        "room,white,0,picture,0.5,0.125,0.25,0.001,,0.4\nroom,white,1,picture,0.5,0.125,0.25,0.001,0.06,0.4\n"
-        "room,sort,0,picture,0.5,0.1,0.25,0.001,,0.4\nroom,sort,1,picture,0.5,0.1,0.1,0.001,0.05,0.3\n"
-        "room,retarget,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3\n"
-        "room,reproject,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3\n");
-    write("radial.csv",
-          "scene,variant,frame,region,frequency,power\nroom,sort,1,picture,0.1,0.1\nroom,sort,1,picture,0.2,"
-          "0.3\n");
-    write("passes.csv",
-          "scene,variant,pass,milliseconds,percent_of_frame,bytes\nroom,reproject,trace,12.5,80,2048\n");
-    // Four methods, three rows, pictures of 3 pixels.
-    write_picture("methods.png", {4 * 10 + 4, 3 * 10 + 4});
-    write_picture("white.png", {4, 2});
-    write_picture("retarget.png", {4, 2});
+    write_study(folder_);
   }
 
-  void write_picture(const std::string& name, Extent size) {
-    Image picture{.size = size, .channels = 3, .type = SampleType::u8, .samples = {}};
-    picture.samples.resize(static_cast<std::size_t>(size.area()) * 3);
-    write_image(folder_ / "room" / name, picture, {});
-  }
+  void write_picture(const std::string& name, Extent size) { write_blank(folder_ / "room" / name, size); }
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
@@ -106,7 +79,7 @@ TEST_F(StudyReport, EachPictureStandsBesideItsMethod) {
                            "Without:</b> white noise", "With retarget:</b>"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   // A sheet of another division is named, not shown askew.
-  write_picture("methods.png", {50, 34});
+  write_picture("methods.png", {500, 340});
   const std::string other = page();
   EXPECT_EQ(other.find("<figcaption>sort</figcaption>"), std::string::npos);
   EXPECT_NE(other.find("not a sheet of 4 columns and 3 rows"), std::string::npos);
@@ -133,4 +106,4 @@ TEST_F(StudyReport, RefusesWhatIsNoStudy) {
 }
 
 }  // namespace
-}  // namespace bn
+}  // namespace bn::report
