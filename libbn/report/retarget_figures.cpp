@@ -1,6 +1,9 @@
 #include "report/retarget_figures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string_view>
 
 #include "bn/error.h"
 
@@ -20,6 +23,21 @@ struct FrameLevels {
 FrameLevels frame_levels(const RetargetSet& set, int slice) {
   return {slice_of_levels(*set.levels, slice),
           set.to ? slice_of_levels(*set.to, slice) : slice_of_levels(*set.levels, (slice + 1) % set.slices)};
+}
+
+/// Of several channels, or of a residual seen through a filter: no sum over the pixels of one mask. Recipes
+/// of ours have a key a line.
+bool is_another_energy(const Metadata& metadata) {
+  if (metadata.algorithm != "retarget-anneal") return false;
+  const auto value_of = [&](std::string_view key) {
+    const auto at = metadata.recipe.find(fmt::format("\n{} = ", key));
+    if (at == std::string::npos) return std::string();
+    const auto begin = at + key.size() + 4;
+    return metadata.recipe.substr(begin, metadata.recipe.find('\n', begin) - begin);
+  };
+  const std::string filter = value_of("residual_sigma");
+  return value_of("channels").find(',') != std::string::npos || !value_of("weights").empty() ||
+         (!filter.empty() && filter != "0.0");
 }
 
 }  // namespace
@@ -55,14 +73,19 @@ std::vector<const RetargetSet::Tile*> tiles_of(const RetargetSet& set, Offset mo
 
 Audit audit(const RetargetSet& set) {
   Audit result;
-  result.recomputed = set.levels.has_value();
+  if (!set.levels) {
+    result.why_not = "the mask is missing";
+  } else if (is_another_energy(set.metadata)) {
+    result.why_not = "it is of several channels or of a filtered residual; bn verify does";
+  }
+  result.recomputed = result.why_not.empty();
   for (const auto& [record, move, slice] : set.tiles) {
     const RetargetOptions options = options_of(set.metadata, record.motion);
     result.optimal += record.energy == record.lower_bound;
     try {
       check_permutation(move, options);
       ++result.permutations;
-      if (!set.levels) continue;
+      if (!result.recomputed) continue;
       const FrameLevels levels = frame_levels(set, slice);
       result.energies += retarget_energy({levels.from, levels.to}, move, options) == record.energy;
     } catch (const Error& error) {

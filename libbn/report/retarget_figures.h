@@ -28,6 +28,7 @@ struct Audit {
   int energies = 0;      ///< that are as recorded
   int optimal = 0;       ///< energy == bound
   bool recomputed = false;
+  std::string why_not;  ///< where energies are not recomputed
   std::string fault;
 };
 Audit audit(const RetargetSet& set);

@@ -273,7 +273,7 @@ std::string facts_table(const RetargetSet& set, const RetargetSet::Tile& tile, c
   facts += fact("proven optimal", fmt::format("{} of {}", checked.optimal, count));
   facts += fact("permutations within reach", of_all(checked.permutations));
   facts += fact("energies as recorded",
-                checked.recomputed ? of_all(checked.energies) : "not recomputed: the mask is missing");
+                checked.recomputed ? of_all(checked.energies) : "not recomputed: " + checked.why_not);
   if (set.seconds) facts += fact("time of the job", number(*set.seconds) + " s");
   if (!checked.fault.empty()) facts += fact("fault", escaped(checked.fault));
   return fmt::format(

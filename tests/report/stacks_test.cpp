@@ -163,5 +163,29 @@ TEST_F(StackReport, ASetBetweenTwoMasksIsRecomputedWithBoth) {
   EXPECT_NE(page().find("its masks are not among the files"), std::string::npos);
 }
 
+// The energy of several channels, or of a filtered residual, is no sum over one mask's pixels. A report once
+// called such tiles "not as recorded".
+TEST_F(StackReport, AnotherEnergyIsNotHeldAgainstAPlainOne) {
+  write_mask(folder_ / "a.png", 32, 1);
+  const Image a = mask_image(32, 1);
+  const auto levels = levels_of_channel(a, 0).value;
+  const RetargetOptions options{.step = {24, 19}, .radius = 3};
+  const RetargetTile tile = solve_retarget(levels, options);
+  Metadata metadata = retarget_metadata(options);
+  metadata.algorithm = "retarget-anneal";
+  metadata.facts.add("source", "a.png");
+  metadata.facts.add("source_channel", 0);
+  metadata.facts.add("source_hash", pixel_hash(a));
+  metadata.tiles.push_back({{0, 0}, tile.start_energy, tile.energy + 100, 0});
+  for (const auto& [keys, other] :
+       {std::pair("channel = 0\nresidual_sigma = 0.0\n", false), std::pair("residual_sigma = 1.5\n", true),
+        std::pair("channels = [0, 1]\nresidual_sigma = 0.0\n", true)}) {
+    metadata.recipe = std::string("[[retarget]]\n") + keys;
+    write_image(folder_ / "t.png", encode_moves(tile.move), metadata);
+    EXPECT_EQ(report({folder_.path()}).failed, other ? 0 : 1) << keys;
+    EXPECT_EQ(page().find("not recomputed: it is of several") != std::string::npos, other) << keys;
+  }
+}
+
 }  // namespace
 }  // namespace bn::report
