@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "bn/retarget.h"
 #include "bn_study/models.h"
@@ -12,6 +13,8 @@
 
 namespace bn::tools {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 constexpr int kSeeds = 8;
 constexpr std::array kFrames{1, 3, 8, 16, 32, 64};
@@ -31,7 +34,7 @@ double mean_length(const Grid<Offset>& tile) {
 }
 
 /// Tiles on a flat picture, seeds and tiles averaged.
-std::string tile_table(const TemporalTextures& base, Session& session) {
+Json tile_rows(const TemporalTextures& base, Session& session) {
   const auto proven = [&](int radius) {
     return std::vector{solve_retarget(base.mask, {.step = base.step, .radius = radius}).move};
   };
@@ -61,11 +64,7 @@ std::string tile_table(const TemporalTextures& base, Session& session) {
                           {"proven, radius 8", proven(8)},
                           {"proven, radius 10", proven(10)},
                           {"proven, radius 12", proven(12)}};
-  std::string text = "| tile | energy | mean move | block |";
-  for (const int frame : kFrames) text += fmt::format(" {} |", frame);
-  text += "\n|---|---|---|---|";
-  for (std::size_t i = 0; i < kFrames.size(); ++i) text += "---|";
-  text += "\n";
+  Json rows = Json::array();
   for (const Line& line : lines) {
     std::array<double, kFrames.size()> db{};
     for (int run = 0; run < kSeeds; ++run) {
@@ -83,22 +82,40 @@ std::string tile_table(const TemporalTextures& base, Session& session) {
         db[i] += power[static_cast<std::size_t>(kFrames[i])] / kSeeds;
     }
     const Grid<Offset>& tile = line.tiles.front();
-    text += line.retarget ? fmt::format("| {} | {} | {:.1f} | {} |", line.name,
-                                        retarget_energy(base.mask, tile, {.step = base.step, .radius = 16}),
-                                        mean_length(tile), line.block)
-                          : fmt::format("| {} | | | {} |", line.name, line.block);
-    for (const double value : db) text += fmt::format(" {:.1f} |", value);
+    Json row{{"tile", line.name}};
+    if (line.retarget) {
+      row["energy"] = retarget_energy(base.mask, tile, {.step = base.step, .radius = 16});
+      row["mean_move"] = mean_length(tile);
+    }
+    row["block"] = line.block;
+    row["frames"] = kFrames;
+    row["db"] = db;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string tile_markdown(const Json& rows) {
+  std::string text = "| tile | energy | mean move | block |";
+  for (const int frame : kFrames) text += fmt::format(" {} |", frame);
+  text += "\n|---|---|---|---|";
+  for (std::size_t i = 0; i < kFrames.size(); ++i) text += "---|";
+  text += "\n";
+  for (const Json& row : rows) {
+    text += fmt::format("| {} |", row["tile"].get<std::string>());
+    text += row.contains("energy") ? fmt::format(" {} | {:.1f} |", row["energy"].get<std::int64_t>(),
+                                                 row["mean_move"].get<double>())
+                                   : " | |";
+    text += fmt::format(" {} |", row["block"].get<int>());
+    for (const Json& value : row["db"]) text += fmt::format(" {:.1f} |", value.get<double>());
     text += "\n";
   }
   return text;
 }
 
 /// The poster model: plain and reprojected retarget, over pans, tiles, edges and what is sorted by.
-std::string pan_table(const TemporalTextures& base, Session& session) {
-  std::string text =
-      "| radius | edges of | sorted by | pan, pixels a frame | plain, dB | reprojected, dB | gain | seeds "
-      "that cross an "
-      "edge: plain | reprojected |\n|---|---|---|---|---|---|---|---|---|\n";
+Json pan_rows(const TemporalTextures& base, Session& session) {
+  Json rows = Json::array();
   for (const int radius : {10, 6, 2, 1}) {
     TemporalTextures textures = base;
     textures.motion_range = 4;
@@ -126,13 +143,32 @@ std::string pan_table(const TemporalTextures& base, Session& session) {
               crossing[reproject] += run.crossing / kSeeds;
             }
           }
-          text += fmt::format("| {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} % | {:.1f} % |\n",
-                              radius, edge == PosterModel::Edge::colour ? "colour" : "surface",
-                              by_light ? "light" : "value", pan, db[0], db[1], db[0] - db[1],
-                              100.0 * crossing[0], 100.0 * crossing[1]);
+          rows.push_back({{"radius", radius},
+                          {"edges_of", edge == PosterModel::Edge::colour ? "colour" : "surface"},
+                          {"sorted_by", by_light ? "light" : "value"},
+                          {"pan_px", pan},
+                          {"plain_db", db[0]},
+                          {"reprojected_db", db[1]},
+                          {"plain_crossing", crossing[0]},
+                          {"reprojected_crossing", crossing[1]}});
         }
       }
     }
+  }
+  return rows;
+}
+
+std::string pan_markdown(const Json& rows) {
+  std::string text =
+      "| radius | edges of | sorted by | pan, pixels a frame | plain, dB | reprojected, dB | gain | seeds "
+      "that cross an edge: plain | reprojected |\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const Json& row : rows) {
+    const auto number = [&](const char* name) { return row[name].get<double>(); };
+    text += fmt::format("| {} | {} | {} | {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} % | {:.1f} % |\n",
+                        row["radius"].get<int>(), row["edges_of"].get<std::string>(),
+                        row["sorted_by"].get<std::string>(), number("pan_px"), number("plain_db"),
+                        number("reprojected_db"), number("plain_db") - number("reprojected_db"),
+                        100.0 * number("plain_crossing"), 100.0 * number("reprojected_crossing"));
   }
   return text;
 }
@@ -152,10 +188,15 @@ Verb study_temporal_verb() {
       "retarget are compared by radius, kind of edge, what is sorted by, and speed, frames 8 to 16. Mask and "
       "tiles "
       "are made on the spot: 64 x 64, 8 bit.";
-  verb.run = [](Session& session) {
+  const auto json = std::make_shared<bool>(false);
+  verb.arguments.flag("--json", *json, true, "Print the rows of both tables as JSON.");
+  verb.run = [json](Session& session) {
     const TemporalTextures base = make_temporal_textures(0, session.execution);
-    session.output.write(tile_table(base, session));
-    session.output.write("\n" + pan_table(base, session));
+    const Json tiles = tile_rows(base, session);
+    if (!*json) session.output.write(tile_markdown(tiles) + "\n");
+    const Json pans = pan_rows(base, session);
+    if (*json) return session.output.write_result({{"tiles", tiles}, {"pans", pans}}, true);
+    session.output.write(pan_markdown(pans));
   };
   return verb;
 }

@@ -18,7 +18,7 @@ using Json = nlohmann::ordered_json;
 
 struct Settings {
   std::string scene;
-  std::vector<Method> methods;  ///< empty: all
+  std::vector<std::string> methods;  ///< empty: all
   StudyOptions study;
   std::string device = "lavapipe";
   std::filesystem::path textures;
@@ -60,31 +60,10 @@ void check_scene_name(const std::string& scene) {
                .remedy = nearest.empty() ? "" : fmt::format("did you mean {}?", nearest)});
 }
 
-/// "all" for an empty list, or some methods: "retarget,reproject".
-ValueKind<std::vector<Method>> method_list() {
-  std::vector<std::string> names{"all"};
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
   for (const Method method : kMethods) names.emplace_back(name_of(method));
-  ValueKind<std::vector<Method>> kind;
-  kind.placeholder = "NAMES";
-  kind.allowed = fmt::format("{}; several with commas", fmt::join(names, ", "));
-  kind.parse = [names](std::string_view text, std::string_view where) {
-    std::vector<Method> methods;
-    if (text == "all") return methods;
-    while (true) {
-      const auto comma = std::min(text.find(','), text.size());
-      const auto found = std::find(names.begin() + 1, names.end(), text.substr(0, comma));
-      if (found == names.end()) fail_choice(text.substr(0, comma), where, names);
-      methods.push_back(kMethods[found - names.begin() - 1]);
-      if (comma == text.size()) return methods;
-      text.remove_prefix(comma + 1);
-    }
-  };
-  kind.show = [](const std::vector<Method>& methods) {
-    std::string text;
-    for (const Method method : methods) text += (text.empty() ? "" : ",") + std::string(name_of(method));
-    return methods.empty() ? "all" : text;
-  };
-  return kind;
+  return names;
 }
 
 void run(Settings& settings, Session& session) {
@@ -93,7 +72,12 @@ void run(Settings& settings, Session& session) {
   study.scenes = settings.scene == "all" ? shipped_scene_names() : std::vector<std::string>{settings.scene};
   for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
   if (!settings.methods.empty()) {
-    study.methods = settings.methods;
+    study.methods.clear();
+    for (const Method method : kMethods) {
+      const auto& chosen = settings.methods;
+      if (std::find(chosen.begin(), chosen.end(), name_of(method)) != chosen.end())
+        study.methods.push_back(method);
+    }
     study.variations = false;
     // White noise is what the others are measured against.
     if (std::find(study.methods.begin(), study.methods.end(), Method::white) == study.methods.end())
@@ -157,7 +141,7 @@ Verb validate_verb() {
       "SCENE", settings->scene, scene(),
       fmt::format("{}, all of them by all, or a TOML file.", fmt::join(shipped_scene_names(), ", ")));
   verb.arguments.option(
-      "--method", settings->methods, method_list(),
+      "--method", settings->methods, word_list(method_names()),
       "Some methods, and white noise to measure them against; all adds other block sizes and "
       "sorting by light.");
   verb.arguments.option(

@@ -108,6 +108,69 @@ ValueKind<std::vector<int>> integer_list(int low, int high, std::size_t most_of_
           .show = [](const std::vector<int>& values) { return fmt::format("{}", fmt::join(values, ",")); }};
 }
 
+ValueKind<std::vector<std::string>> word_list(std::vector<std::string> words) {
+  words.insert(words.begin(), "all");
+  ValueKind<std::vector<std::string>> kind;
+  kind.placeholder = "NAMES";
+  kind.allowed = fmt::format("{}; several with commas", fmt::join(words, ", "));
+  kind.parse = [words](std::string_view text, std::string_view where) {
+    std::vector<std::string> chosen;
+    if (text == words.front()) return chosen;
+    while (true) {
+      const auto comma = std::min(text.find(','), text.size());
+      const std::string word(text.substr(0, comma));
+      if (std::find(words.begin() + 1, words.end(), word) == words.end()) fail_choice(word, where, words);
+      if (std::find(chosen.begin(), chosen.end(), word) == chosen.end()) chosen.push_back(word);
+      if (comma == text.size()) return chosen;
+      text.remove_prefix(comma + 1);
+    }
+  };
+  kind.show = [](const std::vector<std::string>& chosen) {
+    return chosen.empty() ? "all" : fmt::format("{}", fmt::join(chosen, ","));
+  };
+  return kind;
+}
+
+namespace {
+
+/// 1000000 as 1e6.
+std::string short_count(std::int64_t value) {
+  int zeros = 0;
+  for (std::int64_t rest = value; rest != 0 && rest % 10 == 0; rest /= 10) ++zeros;
+  if (zeros < 3) return std::to_string(value);
+  for (int i = 0; i < zeros; ++i) value /= 10;
+  return fmt::format("{}e{}", value, zeros);
+}
+
+}  // namespace
+
+ValueKind<std::vector<std::int64_t>> count_list(std::int64_t low, std::int64_t high) {
+  const std::string allowed =
+      fmt::format("whole numbers that rise, each {}..{}", short_count(low), short_count(high));
+  ValueKind<std::vector<std::int64_t>> kind;
+  kind.placeholder = "N,N...";
+  kind.allowed = allowed;
+  kind.parse = [=](std::string_view text, std::string_view where) {
+    std::vector<std::int64_t> values;
+    for (std::string_view rest = text;;) {
+      const std::size_t comma = std::min(rest.find(','), rest.size());
+      const double value =
+          real_in(static_cast<double>(low), static_cast<double>(high)).parse(rest.substr(0, comma), where);
+      if (value != std::floor(value) || (!values.empty() && value <= static_cast<double>(values.back())))
+        fail(text, where, "is no such list", allowed, "write it like 1e6,1e7");
+      values.push_back(static_cast<std::int64_t>(value));
+      if (comma == rest.size()) return values;
+      rest.remove_prefix(comma + 1);
+    }
+  };
+  kind.show = [](const std::vector<std::int64_t>& values) {
+    std::string text;
+    for (const std::int64_t value : values) text += (text.empty() ? "" : ",") + short_count(value);
+    return text;
+  };
+  return kind;
+}
+
 ValueKind<std::uint64_t> seed_value() {
   constexpr auto kLargest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
   const std::string allowed = fmt::format("0..{}", kLargest);

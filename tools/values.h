@@ -63,6 +63,11 @@ ValueKind<std::filesystem::path> folder_path();
 [[noreturn]] void fail_choice(std::string_view text, std::string_view where,
                               const std::vector<std::string>& words);
 
+/// "all" for an empty list, or some of `words` apart by commas.
+ValueKind<std::vector<std::string>> word_list(std::vector<std::string> words);
+/// "1e6,1e7": whole numbers low..high, each once, in rising order.
+ValueKind<std::vector<std::int64_t>> count_list(std::int64_t low, std::int64_t high);
+
 /// One word of a list.
 template <class T>
 ValueKind<T> choice_of(std::vector<std::pair<std::string, T>> table) {

@@ -1,11 +1,12 @@
-// What a contact sheet shows: every retarget set, and every mask that no set uses, read back from their own
-// files. sheet.cpp draws it.
+// What a contact sheet shows: every retarget set, every spatiotemporal mask, and every mask that no set uses,
+// read back from their own files. sheet.cpp draws it.
 
 #include "bake/contact_sheet.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "bake/inputs.h"
@@ -16,7 +17,7 @@
 namespace bn::baking {
 namespace {
 
-constexpr int kMaxSets = 32, kMaxMasks = 128;
+constexpr int kMaxSets = 32, kMaxStacks = 32, kMaxMasks = 128;
 
 /// Reads what the sheet shows of a set from its own files.
 SheetSet view_of(const Recipe& recipe, const RetargetEntry& entry, const JobRecord& job,
@@ -41,19 +42,25 @@ SheetSet view_of(const Recipe& recipe, const RetargetEntry& entry, const JobReco
   const auto motions = static_cast<std::size_t>((2 * entry.motion + 1) * (2 * entry.motion + 1));
   view.tiles = {job.tiles.begin(),
                 job.tiles.begin() + static_cast<std::ptrdiff_t>(std::min(motions, job.tiles.size()))};
+  // What is said of a stack is said of all its slices.
+  std::int64_t least = std::numeric_limits<std::int64_t>::max(), most = 0;
+  for (std::size_t i = motion_index({0, 0}, entry.motion); i < job.tiles.size(); i += motions) {
+    least = std::min(least, job.tiles[i].energy);
+    most = std::max(most, job.tiles[i].energy);
+  }
   view.plain = view.tiles.at(motion_index({0, 0}, entry.motion));
   const auto optimal = static_cast<std::size_t>(std::count_if(
-      view.tiles.begin(), view.tiles.end(), [](auto& tile) { return tile.energy == tile.lower_bound; }));
+      job.tiles.begin(), job.tiles.end(), [](auto& tile) { return tile.energy == tile.lower_bound; }));
   view.about = fmt::format(
       "{} x {}   step ({}, {}), {}   radius {} {}, {}{}   {} motion{}, {} proven optimal", size.width,
       size.height, view.step.x, view.step.y,
       source.moves()
           ? fmt::format("repeats after {} frames", job.facts.get<std::int64_t>("orbit_length").value_or(0))
-      : source.depth() > 1 ? fmt::format("slice 0 of {}", source.depth())
+      : source.depth() > 1 ? fmt::format("slice 0 of {}, E {}..{}", source.depth(), least, most)
                            : std::string("to another mask"),
       entry.problem.radius, name_of(entry.problem.reach), name_of(entry.problem.metric),
       entry.problem.wrap ? "" : ", no wrap", motions, motions == 1 ? "" : "s",
-      optimal == motions ? "all" : fmt::format("{}", optimal));
+      optimal == job.tiles.size() ? "all" : fmt::format("{}", optimal));
   for (const RetargetOutput& output : entry.outputs) {
     const bool is_tile = output.kind == RetargetOutput::Kind::tile;
     const bool shows_plain_tile = !view.tile && (!is_tile || output.motion == Offset{});
@@ -115,8 +122,25 @@ Image draw_contact_sheet(const Recipe& recipe, const std::filesystem::path& out_
          fmt::format("sigma {}, seed {}", mask.void_and_cluster.sigma_px, mask.void_and_cluster.seed),
          std::move(levels.value), levels.distinct});
   }
-  const std::size_t left_out = all_sets.size() - sets.size() + lone_masks.size() - masks.size();
-  return draw_sheet(sets, masks, static_cast<int>(left_out), execution);
+  std::vector<const SpatiotemporalEntry*> all_stacks;
+  for (const auto& entry : recipe.entries) {
+    if (const auto* stack = dynamic_cast<const SpatiotemporalEntry*>(entry.get()))
+      all_stacks.push_back(stack);
+  }
+  std::vector<SheetStack> stacks;
+  for (std::size_t i = 0; i < std::min<std::size_t>(all_stacks.size(), kMaxStacks); ++i) {
+    throw_if_stopped(execution);
+    const SpatiotemporalEntry& stack = *all_stacks[i];
+    Levels levels = source_of({read_input(out_dir / stack.path_of(0), execution)}, {0}).levels[0];
+    const Shape shape = levels.value.shape();
+    stacks.push_back({stack.name,
+                      fmt::format("{} x {} x {}, preset {}, seed {}", shape.width, shape.height, shape.depth,
+                                  name_of(stack.mask.preset), stack.mask.seed),
+                      std::move(levels.value), levels.distinct});
+  }
+  const std::size_t left_out =
+      all_sets.size() - sets.size() + all_stacks.size() - stacks.size() + lone_masks.size() - masks.size();
+  return draw_sheet(sets, stacks, masks, static_cast<int>(left_out), execution);
 }
 
 }  // namespace bn::baking

@@ -1,13 +1,15 @@
-// Composition: a section for each retarget set, then the masks that no set uses.
+// Composition: a section for each retarget set, a row for each spatiotemporal mask, then the masks that no
+// set uses.
 //
 //   name and figures
 //   [ mask D     ] [ its spectrum ] [ |D(u)-D(u+d)| ] [ |D(u)-D(u+R+d)| ]  [         ]
 //   [ R as hues  ] [ R as arrows  ] [ energy of every motion            ]  [  atlas  ]
 //
-// Up to four masks have a row each: mask, spectrum, thresholds. More stand in a grid, mask and spectrum side
-// by side. Textures are enlarged by whole numbers, nearest pixel; one too large for its panel shows its upper
-// left corner (a tile) or every k-th pixel (an atlas), and the caption says so. What is a colour has a bar or
-// a disc with numbers.
+// A stack: slice 0, its spectrum, a row of pixels over time, the spectrum in x and time. Up to four masks
+// have a row each: mask, spectrum, thresholds. More stand in a grid, mask and spectrum side by side. Textures
+// are enlarged by whole numbers, nearest pixel; one too large for its panel shows its upper left corner (a
+// tile) or every k-th pixel (an atlas), and the caption says so. What is a colour has a bar or a disc with
+// numbers.
 
 #include "bake/sheet.h"
 
@@ -123,6 +125,21 @@ class Sheet {
     if (set.motion > 0) heat_map(set);
     if (set.atlas) atlas(*set.atlas, set);
     end_section(kBothRows);
+  }
+
+  /// A row: a slice and its spectrum, a row of pixels over time and the spectrum in x and time.
+  void stack(const SheetStack& stack) {
+    header(stack.name, stack.about);
+    Grid<std::int32_t> slice(stack.levels.size());
+    std::copy_n(stack.levels.slice(0).begin(), slice.count(), slice.begin());
+    panel(0, 0, "slice 0", fmt::format("{} levels", stack.distinct), GreyLevels(slice).picture());
+    spectrum(1, 0, slice);
+    panel(2, 0, "row 0 over time", fmt::format("{} slices, downwards", stack.levels.depth()),
+          GreyLevels(row_in_time(stack.levels, 0)).picture());
+    const Grid<std::uint8_t> power = sheet_spectrum_in_time(stack.levels);
+    panel(3, 0, "spectrum, x and time", power.count() > 0 ? "-50 dB to 12.5 dB" : "none of this size",
+          coloured(power.size(), [&](int x, int y) { return grey(power(x, y) / 255.0); }));
+    end_section(kOneRow);
   }
 
   /// A row: the mask, its spectrum, two thresholds.
@@ -310,8 +327,8 @@ class Sheet {
 
 }  // namespace
 
-Image draw_sheet(const std::vector<SheetSet>& sets, const std::vector<SheetMask>& masks, int left_out,
-                 const Execution& execution) {
+Image draw_sheet(const std::vector<SheetSet>& sets, const std::vector<SheetStack>& stacks,
+                 const std::vector<SheetMask>& masks, int left_out, const Execution& execution) {
   const bool atlas =
       std::any_of(sets.begin(), sets.end(), [](const SheetSet& set) { return set.atlas.has_value(); });
   const int width = atlas ? kWidthWithAtlas : kWidth;
@@ -320,12 +337,17 @@ Image draw_sheet(const std::vector<SheetSet>& sets, const std::vector<SheetMask>
   const int columns = std::max(1, (width - 2 * kMargin + kCellGap) / (kCell + kCellGap));
   const int grid_rows = rows_each ? 0 : (count + columns - 1) / columns;
   const int height = kMargin + static_cast<int>(sets.size()) * (kBothRows + kBetween) +
+                     static_cast<int>(stacks.size()) * (kOneRow + kBetween) +
                      (rows_each ? count * (kOneRow + kBetween) : grid_rows * kCellHeight + kBetween) +
                      (left_out > 0 ? kMargin : 0);
   Sheet sheet({width, height});
   for (const SheetSet& set : sets) {
     throw_if_stopped(execution);
     sheet.set(set);
+  }
+  for (const SheetStack& stack : stacks) {
+    throw_if_stopped(execution);
+    sheet.stack(stack);
   }
   for (int i = 0; i < count; ++i) {
     throw_if_stopped(execution);

@@ -38,8 +38,16 @@ struct SheetMask {
   int distinct = 0;
 };
 
+/// A spatiotemporal mask.
+struct SheetStack {
+  std::string name;
+  std::string about;          ///< one line under the name
+  Grid<std::int32_t> levels;  ///< a volume
+  int distinct = 0;
+};
+
 /// `left_out`: how many more there are. Errors: cancelled.
-Image draw_sheet(const std::vector<SheetSet>& sets, const std::vector<SheetMask>& masks, int left_out,
-                 const Execution& execution);
+Image draw_sheet(const std::vector<SheetSet>& sets, const std::vector<SheetStack>& stacks,
+                 const std::vector<SheetMask>& masks, int left_out, const Execution& execution);
 
 }  // namespace bn::baking

@@ -64,9 +64,8 @@ std::vector<SineCosine> turn(int n) {
   return table;
 }
 
-}  // namespace
-
-Grid<std::uint8_t> sheet_spectrum(const Grid<std::int32_t>& levels) {
+/// Power against white noise, DC in the middle and 0.
+Grid<double> power_of(const Grid<std::int32_t>& levels) {
   const int fold_x = folds_of(levels.width()), fold_y = folds_of(levels.height());
   if (fold_x == 0 || fold_y == 0 || levels.count() < 2) return {};
   const int w = levels.width() / fold_x, h = levels.height() / fold_y;
@@ -100,8 +99,7 @@ Grid<std::uint8_t> sheet_spectrum(const Grid<std::int32_t>& levels) {
       imaginary(k, y) = im;
     }
   }
-  const double scale = 10.0 / reproducible_log(10.0);
-  Grid<std::uint8_t> picture(Extent{w, h});
+  Grid<double> power(Extent{w, h});
   for (int k = 0; k < h; ++k) {
     for (int j = 0; j < w; ++j) {
       double re = 0.0, im = 0.0;
@@ -112,13 +110,55 @@ Grid<std::uint8_t> sheet_spectrum(const Grid<std::int32_t>& levels) {
         at += k;
         if (at >= h) at -= h;
       }
-      const double power = j == 0 && k == 0 ? 0.0 : (re * re + im * im) / (count * variance);
-      const double db = scale * reproducible_log(std::max(power, 1e-12));
-      const double share = std::clamp((db - kLow_db) / (kHigh_db - kLow_db), 0.0, 1.0);
-      picture((j + w / 2) % w, (k + h / 2) % h) = static_cast<std::uint8_t>(255.0 * share + 0.5);
+      power((j + w / 2) % w, (k + h / 2) % h) =
+          j == 0 && k == 0 ? 0.0 : (re * re + im * im) / (count * variance);
     }
   }
+  return power;
+}
+
+Grid<std::uint8_t> decibels(const Grid<double>& power) {
+  const double scale = 10.0 / reproducible_log(10.0);
+  Grid<std::uint8_t> picture(power.size());
+  for (std::size_t i = 0; i < power.count(); ++i) {
+    const double db = scale * reproducible_log(std::max(power[i], 1e-12));
+    const double share = std::clamp((db - kLow_db) / (kHigh_db - kLow_db), 0.0, 1.0);
+    picture[i] = static_cast<std::uint8_t>(255.0 * share + 0.5);
+  }
   return picture;
+}
+
+}  // namespace
+
+Grid<std::uint8_t> sheet_spectrum(const Grid<std::int32_t>& levels) { return decibels(power_of(levels)); }
+
+Grid<std::uint8_t> sheet_spectrum_in_time(const Grid<std::int32_t>& volume) {
+  constexpr int kMostRows = 16;  // enough for a calm mean
+  const int rows = std::min(volume.height(), kMostRows);
+  Grid<double> sum;
+  for (int i = 0; i < rows; ++i) {
+    const int y = static_cast<int>(std::int64_t{i} * volume.height() / rows);
+    const Grid<double> power = power_of(row_in_time(volume, y));
+    if (power.count() == 0) return {};
+    if (i == 0) {
+      sum = power;
+      continue;
+    }
+    for (std::size_t at = 0; at < sum.count(); ++at) sum[at] += power[at];
+  }
+  for (double& power : sum) power /= rows;
+  return decibels(sum);
+}
+
+Grid<std::int32_t> row_in_time(const Grid<std::int32_t>& volume, int y) {
+  Grid<std::int32_t> plane(Extent{volume.width(), volume.depth()});
+  for (int z = 0; z < volume.depth(); ++z) {
+    const auto slice = volume.slice(z);
+    for (int x = 0; x < volume.width(); ++x)
+      plane(x, z) = slice[static_cast<std::size_t>(y) * static_cast<std::size_t>(volume.width()) +
+                          static_cast<std::size_t>(x)];
+  }
+  return plane;
 }
 
 }  // namespace bn::baking

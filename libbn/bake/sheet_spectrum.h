@@ -13,4 +13,10 @@ namespace bn::baking {
 /// such divisor, or the mask is constant. The same bytes on every machine, unlike those of the spectrum room.
 Grid<std::uint8_t> sheet_spectrum(const Grid<std::int32_t>& levels);
 
+/// The same of a volume's planes in x and time, the mean over rows: across cycles/pixel, down cycles/frame.
+Grid<std::uint8_t> sheet_spectrum_in_time(const Grid<std::int32_t>& volume);
+
+/// Row `y` of every slice, one below the other.
+Grid<std::int32_t> row_in_time(const Grid<std::int32_t>& volume, int y);
+
 }  // namespace bn::baking

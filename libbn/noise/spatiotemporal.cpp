@@ -154,4 +154,16 @@ Grid<std::uint32_t> spatiotemporal_mask(const SpatiotemporalOptions& options, co
                      execution);
 }
 
+std::string_view name_of(SpatiotemporalPreset preset) {
+  switch (preset) {
+    case SpatiotemporalPreset::stbn:
+      return "stbn";
+    case SpatiotemporalPreset::filtered:
+      return "filtered";
+    case SpatiotemporalPreset::both:
+      break;
+  }
+  return "both";
+}
+
 }  // namespace bn

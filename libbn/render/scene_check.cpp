@@ -36,6 +36,8 @@ bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::
 
 void check_names(const Scene& scene) {
   check_name(scene, scene.name);
+  if (scene.about.size() > 500)
+    refuse(scene, fmt::format("'about' of {} bytes", scene.about.size()), "0..500 bytes");
   for (const Region& region : scene.regions) {
     check_name(scene, region.name);
     if (region.name == "picture") refuse(scene, "a region 'picture': that is the whole picture's name");

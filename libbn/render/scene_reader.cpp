@@ -36,10 +36,11 @@ class Reader {
   explicit Reader(std::string where) : where_(std::move(where)) {}
 
   Scene read(const toml::table& root) {
-    only(root,
-         {"name", "sky", "fov_degrees", "pan_px", "camera", "material", "quad", "box", "sphere", "region"});
+    only(root, {"name", "about", "sky", "fov_degrees", "pan_px", "camera", "material", "quad", "box",
+                "sphere", "region"});
     Scene scene;
     scene.name = text(root, "name");
+    if (root.contains("about")) scene.about = text(root, "about");
     if (root.contains("sky")) scene.sky = colour(root, "sky");
     scene.fov_degrees = number(root, "fov_degrees", 45.0);
     if (root.contains("pan_px")) {
@@ -272,7 +273,13 @@ std::vector<std::string> shipped_scene_names() {
 
 Scene read_scene(std::string_view text, const std::string& where) {
   Scene scene = Reader(where).read(document::parse_toml(text, where));
-  check_scene(scene);
+  try {
+    check_scene(scene);
+  } catch (const Error& error) {
+    ErrorInfo info = error.info();
+    info.where = fmt::format("{}, {}", where, info.where);
+    throw Error(info);
+  }
   return scene;
 }
 

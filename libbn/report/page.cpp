@@ -45,8 +45,7 @@ std::string plain_list(const Page& page) {
   std::string rows;
   for (std::size_t i = 0; i < page.sections.size(); ++i) {
     if (page.sections[i].group != Group::other) continue;
-    rows += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"extra\">{}</td></tr>\n", link_to(page, i),
-                        page.kinds[i]);
+    rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", link_to(page, i), page.kinds[i]);
   }
   if (rows.empty()) return {};
   return fmt::format("<div class=\"wide\"><table class=\"summary\"><tbody>{}</tbody></table></div>\n", rows);
@@ -160,7 +159,7 @@ std::string page_html(const Page& page, const std::vector<std::string>& svg) {
     for (const std::string& note : page.notes) html += fmt::format("<li>{}</li>", escaped(note));
     html += "</ul></aside>\n";
   }
-  html += summary_of(page);
+  html += page.preface + summary_of(page) + page.appendix;
 
   std::size_t plots = 0;
   for (const Section& section : page.sections) plots += section.plots.size();

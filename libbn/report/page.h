@@ -16,6 +16,8 @@ struct Page {
       "cycles/pixel. The grade is 100 where a texture is as good as the best known of its size, 0 where it "
       "is no "
       "better than white noise.<span class=\"screen\"> A click on a picture shows it larger.</span>";
+  std::string preface = {};        ///< HTML between the notes and the table at the top
+  std::string appendix = {};       ///< HTML between that table and the sections
   std::vector<std::string> names;  ///< of the sections
   std::vector<std::string> kinds;  ///< "mask", "retarget set", "volume"
   std::vector<Section> sections;

@@ -37,7 +37,7 @@ struct StyleFile {
 
 /// In the order of PlotStyle.
 const StyleFile& style_file(PlotStyle style) {
-  static constexpr std::array<StyleFile, 9> kFiles{{
+  static constexpr std::array<StyleFile, 11> kFiles{{
       {
 #include "report/power.gnuplot.inc"
           , "lines", kHalfOfThePage},
@@ -59,6 +59,12 @@ const StyleFile& style_file(PlotStyle style) {
       {
 #include "report/moves.gnuplot.inc"
           , "boxes", kThirdOfThePage},
+      {
+#include "report/energies.gnuplot.inc"
+          , "linespoints", kThirdOfThePage},
+      {
+#include "report/slice_bands.gnuplot.inc"
+          , "linespoints", kHalfOfThePage},
       {
 #include "report/error_power.gnuplot.inc"
           , "lines", kHalfOfThePage},

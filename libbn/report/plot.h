@@ -17,6 +17,8 @@ enum class PlotStyle {
   histogram,
   residual,
   moves,
+  energies,
+  slice_bands,
   error_power,
   error_frames
 };

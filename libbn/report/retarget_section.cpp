@@ -3,99 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "bn/error.h"
 #include "bn/retarget.h"
 #include "report/html.h"
 #include "report/pictures.h"
+#include "report/retarget_figures.h"
 #include "report/section.h"
 
 namespace bn::report {
 namespace {
 
-constexpr std::array<int, 3> kRepeats{1, 8, 64};
 constexpr int kSpectrumShown = 256;  ///< pixels a side: four pictures fill a row
-
-RetargetOptions options_of(const Metadata& metadata, Offset motion) {
-  RetargetOptions options;
-  options.step = *metadata.facts.get<Offset>("step");
-  options.motion = motion;
-  options.radius = *metadata.facts.get<int>("radius");
-  options.reach = metadata.facts.get<std::string>("reach") == "euclidean" ? Reach::euclidean : Reach::chebyshev;
-  options.metric = metadata.facts.get<std::string>("metric") == "l2" ? Metric::l2 : Metric::l1;
-  options.wrap = metadata.facts.get<bool>("wrap").value_or(true);
-  return options;
-}
-
-/// The tile shown: of no motion if there is one.
-const RetargetSet::Tile& main_tile(const RetargetSet& set) {
-  for (const auto& tile : set.tiles) {
-    if (tile.record.motion == Offset{0, 0}) return tile;
-  }
-  return set.tiles.front();
-}
-
-/// What recomputing every tile says.
-struct Audit {
-  int permutations = 0;  ///< bijections within reach
-  int energies = 0;      ///< that are as recorded
-  int optimal = 0;       ///< energy == bound
-  bool recomputed = false;
-  std::string fault;
-};
-
-Audit audit(const RetargetSet& set) {
-  Audit result;
-  result.recomputed = set.levels.has_value();
-  for (const auto& [record, move] : set.tiles) {
-    const RetargetOptions options = options_of(set.metadata, record.motion);
-    result.optimal += record.energy == record.lower_bound;
-    try {
-      check_permutation(move, options);
-      ++result.permutations;
-      if (set.levels) result.energies += retarget_energy(*set.levels, move, options) == record.energy;
-    } catch (const Error& error) {
-      if (result.fault.empty()) result.fault = error.what();
-    }
-  }
-  return result;
-}
-
-/// D(u) - D(u + R(u) + d): by how much a seed's new place differs from its old one.
-Grid<double> residual_of(const Grid<std::int32_t>& levels, const Grid<Offset>& move, Offset step) {
-  Grid<double> residual(levels.size());
-  for (int y = 0; y < levels.height(); ++y) {
-    for (int x = 0; x < levels.width(); ++x) {
-      const Offset r = move(x, y);
-      residual(x, y) =
-          levels(x, y) - levels.torus(std::int64_t{x} + r.x + step.x, std::int64_t{y} + r.y + step.y);
-    }
-  }
-  return residual;
-}
-
-/// The dither on the screen after each of kRepeats frames: in frame 0 every seed sits on its level D(p);
-/// frame t moves the seed at p by R(p + t d).
-std::vector<std::vector<double>> repeated(const Grid<std::int32_t>& levels, const Grid<Offset>& move,
-                                          Offset step) {
-  Grid<std::int32_t> screen = levels, next(levels.size());
-  std::vector<std::vector<double>> result;
-  for (int t = 0; t < kRepeats.back(); ++t) {
-    for (int y = 0; y < screen.height(); ++y) {
-      for (int x = 0; x < screen.width(); ++x) {
-        const Offset r = move.torus(x + std::int64_t{t} * step.x, y + std::int64_t{t} * step.y);
-        next(wrap(x + r.x, screen.width()), wrap(y + r.y, screen.height())) = screen(x, y);
-      }
-    }
-    std::swap(screen, next);
-    if (std::find(kRepeats.begin(), kRepeats.end(), t + 1) != kRepeats.end()) {
-      result.emplace_back(screen.begin(), screen.end());
-    }
-  }
-  return result;
-}
 
 /// How far pixels go, beyond the motion, as the reach measures it.
 Plot moves_plot(const RetargetSet& set, const RetargetSet::Tile& tile, std::string file_name) {
@@ -103,8 +23,9 @@ Plot moves_plot(const RetargetSet& set, const RetargetSet::Tile& tile, std::stri
   std::vector<std::int64_t> counts(static_cast<std::size_t>(radius) + 1);
   for (const Offset r : tile.move) {
     const int x = std::abs(r.x - tile.record.motion.x), y = std::abs(r.y - tile.record.motion.y);
-    const int length =
-        set.metadata.facts.get<std::string>("reach") == "euclidean" ? static_cast<int>(std::lround(std::hypot(x, y))) : std::max(x, y);
+    const int length = set.metadata.facts.get<std::string>("reach") == "euclidean"
+                           ? static_cast<int>(std::lround(std::hypot(x, y)))
+                           : std::max(x, y);
     ++counts[static_cast<std::size_t>(std::min(length, radius))];
   }
   Curve curve{"pixels", Role::texture, 0, {}, {}};
@@ -117,14 +38,17 @@ Plot moves_plot(const RetargetSet& set, const RetargetSet::Tile& tile, std::stri
 }
 
 /// Energy and bound of every motion as a table, coloured by energy.
-std::string heat_map(const RetargetSet& set) {
-  if (set.tiles.size() < 2) return {};
+std::string heat_map(const RetargetSet& set, int slice) {
+  std::vector<RetargetSet::Tile> tiles;  // of that slice
+  std::copy_if(set.tiles.begin(), set.tiles.end(), std::back_inserter(tiles),
+               [&](const RetargetSet::Tile& tile) { return tile.slice == slice; });
+  if (tiles.size() < 2) return {};
   const auto by_energy = [](const auto& a, const auto& b) { return a.record.energy < b.record.energy; };
-  const auto [least, most] = std::minmax_element(set.tiles.begin(), set.tiles.end(), by_energy);
+  const auto [least, most] = std::minmax_element(tiles.begin(), tiles.end(), by_energy);
   const std::int64_t low = least->record.energy, high = most->record.energy;
   bool all_optimal = true;
   int range = 0;
-  for (const auto& tile : set.tiles) {
+  for (const auto& tile : tiles) {
     all_optimal &= tile.record.energy == tile.record.lower_bound;
     range = std::max({range, std::abs(tile.record.motion.x), std::abs(tile.record.motion.y)});
   }
@@ -134,10 +58,10 @@ std::string heat_map(const RetargetSet& set) {
   for (int y = -range; y <= range; ++y) {
     rows += fmt::format("<tr><th scope=\"row\">{}</th>", number(y));
     for (int x = -range; x <= range; ++x) {
-      const auto tile = std::find_if(set.tiles.begin(), set.tiles.end(), [&](const auto& t) {
+      const auto tile = std::find_if(tiles.begin(), tiles.end(), [&](const auto& t) {
         return t.record.motion == Offset{x, y};
       });
-      if (tile == set.tiles.end()) {
+      if (tile == tiles.end()) {
         rows += "<td></td>";
         continue;
       }
@@ -154,17 +78,21 @@ std::string heat_map(const RetargetSet& set) {
     rows += "</tr>\n";
   }
   return fmt::format(
-      "<figure class=\"heatmap\"><figcaption><b>Energy by motion</b> Across in x, down in y; from {} to {}. "
+      "<figure class=\"heatmap\"><figcaption><b>Energy by motion</b> {}Across in x, down in y; from {} to "
+      "{}. "
       "{}</figcaption><div class=\"wide\"><table class=\"heat\"><tbody>{}</tbody></table></div></figure>\n",
-      whole(low), whole(high),
+      set.slices > 1 ? fmt::format("From slice {}. ", slice) : "", whole(low), whole(high),
       all_optimal ? "Every lower bound equals its energy: all proven optimal."
                   : "The small figure is the lower bound where it is not the energy itself.",
       rows);
 }
 
 std::string energies_csv(const RetargetSet& set) {
-  std::string csv = "motion_x,motion_y,start_energy,energy,lower_bound\n";
-  for (const auto& [record, move] : set.tiles) {
+  const bool stack = set.slices > 1;
+  std::string csv =
+      fmt::format("{}motion_x,motion_y,start_energy,energy,lower_bound\n", stack ? "slice," : "");
+  for (const auto& [record, move, slice] : set.tiles) {
+    if (stack) csv += fmt::format("{},", slice);
     csv += fmt::format("{},{},{},{},{}\n", record.motion.x, record.motion.y, record.start_energy,
                        record.energy, record.lower_bound);
   }
@@ -190,6 +118,13 @@ struct Draft {
   }
 };
 
+/// Which of a stack's tiles it is, as a sentence.
+std::string frame_words(const RetargetSet& set, const RetargetSet::Tile& tile) {
+  if (set.slices == 1) return {};
+  return fmt::format("From slice {} to {}, the frame of most energy. ", tile.slice,
+                     (tile.slice + 1) % set.slices);
+}
+
 std::string spectrum_figure(const PowerSpectrum& power, std::string title, std::string caption) {
   const Image picture = spectrum_image(power, kSpectrumShown);
   return figure({.image = picture,
@@ -211,8 +146,8 @@ void add_moves(const RetargetSet& set, const RetargetSet::Tile& tile, const std:
       figure({.image = moves_image(tile.move, tile.record.motion, radius),
               .scale = scale_for(tile.move.width(), 256),
               .title = "The moves.",
-              .caption = fmt::format("Direction as hue, length as strength; on average {} pixels.",
-                                     number(mean_length))});
+              .caption = fmt::format("{}Direction as hue, length as strength; on average {} pixels.",
+                                     frame_words(set, tile), number(mean_length))});
   draft.gallery +=
       figure({.image = moves_legend(160),
               .scale = 1,
@@ -220,15 +155,16 @@ void add_moves(const RetargetSet& set, const RetargetSet::Tile& tile, const std:
               .caption = fmt::format("A move to the right is pink, down blue, left green, up yellow; "
                                      "grey stays. The rim is {} pixels.",
                                      radius)});
-  draft.plots += draft.add_plot(moves_plot(set, tile, file_name + "-moves"), "Lengths of the moves",
-                                fmt::format("Share of the pixels, by {} length, motion taken out.",
-                                            set.metadata.facts.get<std::string>("reach") == "euclidean" ? "Euclidean" : "Chebyshev"));
+  draft.plots += draft.add_plot(
+      moves_plot(set, tile, file_name + "-moves"), "Lengths of the moves",
+      fmt::format("Share of the pixels, by {} length, motion taken out.",
+                  set.metadata.facts.get<std::string>("reach") == "euclidean" ? "Euclidean" : "Chebyshev"));
 }
 
 /// What a retarget gets wrong, and its spectrum.
 void add_residual(const RetargetSet& set, const RetargetSet::Tile& tile, const std::string& file_name,
                   const Execution& execution, Draft& draft) {
-  const Grid<double> residual = residual_of(*set.levels, tile.move, *set.metadata.facts.get<Offset>("step"));
+  const Grid<double> residual = residual_of(set, tile);
   double largest = 0.0, sum = 0.0;
   for (const double v : residual) {
     largest = std::max(largest, std::abs(v));
@@ -255,13 +191,29 @@ void add_residual(const RetargetSet& set, const RetargetSet::Tile& tile, const s
                                             number(band_power(power).mean[0])));
 }
 
+/// Energies of a stack, frame by frame, against the proven optimum.
+void add_frames(const RetargetSet& set, const RetargetSet::Tile& tile, const std::string& file_name,
+                Draft& draft) {
+  Plot plot{PlotStyle::energies, file_name + "-frames", "slice", "energy", {}};
+  Curve bound{"proven lower bound", Role::reference, 0, {}, {}}, energy{"energy", Role::texture, 0, {}, {}};
+  for (const RetargetSet::Tile* one : tiles_of(set, tile.record.motion)) {
+    for (Curve* curve : {&bound, &energy}) curve->x.push_back(one->slice);
+    bound.y.push_back(static_cast<double>(one->record.lower_bound));
+    energy.y.push_back(static_cast<double>(one->record.energy));
+  }
+  const bool optimal = bound.y == energy.y;
+  if (!optimal) plot.curves.push_back(std::move(bound));
+  plot.curves.push_back(std::move(energy));
+  draft.plots += draft.add_plot(std::move(plot), "Energy by frame",
+                                fmt::format("From each slice to the next one, the last to the first{}.",
+                                            optimal ? "; each is the proven optimum" : ""));
+}
+
 /// What is left of the dither after retargets in a row.
 void add_dithers(const RetargetSet& set, const RetargetSet::Tile& tile, const Reference& reference,
                  const std::string& file_name, const Execution& execution, Draft& draft) {
   Plot plot = power_plot(file_name + "-dither", reference);
-  const std::vector<double> mask(set.levels->begin(), set.levels->end());
-  auto screens = repeated(*set.levels, tile.move, *set.metadata.facts.get<Offset>("step"));
-  screens.insert(screens.begin(), mask);
+  const auto screens = repeated(set, tile.record.motion);
   for (std::size_t i = 0; i < screens.size(); ++i) {
     const PowerSpectrum power = analyse(screens[i], tile.move.shape(), 0.0, 1.0, execution).power;
     const RadialCurve curve = radial_power(power);
@@ -290,22 +242,38 @@ std::string facts_table(const RetargetSet& set, const RetargetSet::Tile& tile, c
   const auto of_all = [&](int part) { return fmt::format("{} of {} {}", part, count, badge(part == count)); };
   std::string facts;
   facts +=
-      fact("mask", set.mask_name.empty() ? escaped(metadata.facts.get<std::string>("source").value_or("–")) : escaped(set.mask_name));
-  facts += fact("step, orbit", fmt::format("({}, {}), {} frames", metadata.facts.get<Offset>("step")->x, metadata.facts.get<Offset>("step")->y,
-                                           orbit_length(tile.move.size(), *metadata.facts.get<Offset>("step"))));
-  facts +=
-      fact("radius, reach, metric, border",
-           fmt::format("{} px, {}, {}, {}", *metadata.facts.get<int>("radius"), escaped(metadata.facts.get<std::string>("reach").value_or("chebyshev")),
-                       escaped(metadata.facts.get<std::string>("metric").value_or("l1")),
-                       metadata.facts.get<bool>("wrap").value_or(true) ? "wraps" : "closed"));
+      fact("mask", set.mask_name.empty() ? escaped(metadata.facts.get<std::string>("source").value_or("–"))
+                                         : escaped(set.mask_name));
+  if (const auto to = metadata.facts.get<std::string>("to")) facts += fact("next frame's mask", escaped(*to));
+  const Offset step = *metadata.facts.get<Offset>("step");
+  if (set.slices > 1 || set.to) {
+    facts += fact("step", fmt::format("({}, {}), and each frame has a mask of its own", step.x, step.y));
+  } else {
+    facts += fact("step, orbit",
+                  fmt::format("({}, {}), {} frames", step.x, step.y, orbit_length(tile.move.size(), step)));
+  }
+  facts += fact("radius, reach, metric, border",
+                fmt::format("{} px, {}, {}, {}", *metadata.facts.get<int>("radius"),
+                            escaped(metadata.facts.get<std::string>("reach").value_or("chebyshev")),
+                            escaped(metadata.facts.get<std::string>("metric").value_or("l1")),
+                            metadata.facts.get<bool>("wrap").value_or(true) ? "wraps" : "closed"));
   facts += fact("energy of the tile shown",
                 fmt::format("{} ({} of the {} without moves)", whole(record.energy),
                             std::isnan(share) ? "–" : percent(share), whole(record.start_energy)));
   facts += fact("proven lower bound", fmt::format("{} (gap {})", whole(record.lower_bound), percent(gap)));
+  if (set.slices > 1) {
+    const auto frames = tiles_of(set, record.motion);
+    const auto least = *std::min_element(frames.begin(), frames.end(), [](const auto* a, const auto* b) {
+      return a->record.energy < b->record.energy;
+    });
+    facts += fact("energy by frame", fmt::format("{} (from slice {}) … {} (from slice {}), over {} frames",
+                                                 whole(least->record.energy), least->slice,
+                                                 whole(record.energy), tile.slice, std::ssize(frames)));
+  }
   facts += fact("proven optimal", fmt::format("{} of {}", checked.optimal, count));
   facts += fact("permutations within reach", of_all(checked.permutations));
   facts += fact("energies as recorded",
-                checked.recomputed ? of_all(checked.energies) : "not recomputed: the mask is missing");
+                checked.recomputed ? of_all(checked.energies) : "not recomputed: " + checked.why_not);
   if (set.seconds) facts += fact("time of the job", number(*set.seconds) + " s");
   if (!checked.fault.empty()) facts += fact("fault", escaped(checked.fault));
   return fmt::format(
@@ -342,6 +310,7 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
                                                          : badge(true, "as recorded");
   Draft draft;
   add_moves(set, tile, file_name, draft);
+  if (set.slices > 1) add_frames(set, tile, file_name, draft);
   if (set.levels) {
     add_residual(set, tile, file_name, execution, draft);
     add_dithers(set, tile, reference, file_name, execution, draft);
@@ -354,13 +323,15 @@ Section retarget_section(const RetargetSet& set, const Reference& reference, con
   html += fmt::format("<h2>{} {}</h2>\n", escaped(set.name), verdict);
   std::string files;
   for (const std::string& name : set.files) files += (files.empty() ? "" : ", ") + escaped(name);
-  html += fmt::format("<p class=\"about\">{} tile{} of {} × {} pixels, {}{}.</p>\n", count,
-                      count == 1 ? "" : "s", size.width, size.height, files,
+  html += fmt::format("<p class=\"about\">{} tile{} of {} × {} pixels{}, {}{}.</p>\n", count,
+                      count == 1 ? "" : "s", size.width, size.height,
+                      set.slices > 1 ? fmt::format(", {} slices", set.slices) : "", files,
                       set.seconds ? fmt::format(", made in {} s", number(*set.seconds)) : "");
   html += "<div class=\"gallery\">" + draft.gallery + "</div>\n";
   if (!draft.dithers.empty()) html += "<div class=\"gallery\">" + draft.dithers + "</div>\n";
-  html += fmt::format("<div class=\"top\">{}<div>{}</div></div>\n<div class=\"plots\">{}{}</div>\n",
-                      facts_table(set, tile, checked), draft.main_plot, heat_map(set), draft.plots);
+  html +=
+      fmt::format("<div class=\"top\">{}<div>{}</div></div>\n<div class=\"plots\">{}{}</div>\n",
+                  facts_table(set, tile, checked), draft.main_plot, heat_map(set, tile.slice), draft.plots);
   if (!set.metadata.recipe.empty()) {
     html += fmt::format("<details><summary>Recipe</summary><pre>{}</pre></details>\n",
                         escaped(set.metadata.recipe));

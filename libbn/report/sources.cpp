@@ -1,10 +1,10 @@
 // Finding textures.
 //
 // Files say what they are in their metadata; a file without any is a texture of as many channels as differ.
-// Files with the same samples, and files that a manifest lists under one mask's job, are encodings of one
-// texture: the first stands for all. Tiles and atlases of one mask and one set of options are one retarget
-// set. Nothing that a file names is opened but its mask, which must lie beside or below it and have the
-// recorded hash.
+// Slices of one stack, in files of their own or in one, are one volume. Files with the same samples, and
+// files that a manifest lists under one mask's job, are encodings of one texture: the first stands for all.
+// Tiles and atlases of one mask and one set of options are one retarget set. Nothing that a file names is
+// opened but its mask, which must lie beside or below it and have the recorded hash.
 
 #include "report/sources.h"
 
@@ -19,6 +19,8 @@
 #include "bn/retarget.h"
 #include "bn/volume.h"
 #include "report/candidates.h"
+#include "report/stacks.h"
+#include "texture/codec.h"
 
 namespace bn::report {
 namespace {
@@ -56,32 +58,46 @@ class Collector {
   void add(const Candidate& candidate) {
     throw_if_stopped(execution_);
     try {
-      FileContent content = read_image(candidate.path, execution_);
+      FileContent content = texture::read_any(candidate.path, execution_);
       if (!content.metadata_fault.empty()) {
         note(candidate.name, fmt::format("its metadata cannot be read ({}), so it is taken as a picture",
                                          content.metadata_fault));
       }
       const std::string kind = content.metadata ? content.metadata->kind : "";
       if (kind == "contact-sheet" || kind == "spectrum") return;
-      const std::string hash = pixel_hash(content.image);
-      if (content.metadata && content.metadata->pixel_hash != hash) {
+      if (content.metadata && content.metadata->pixel_hash != pixel_hash(content.image)) {
         note(candidate.name, "its samples are not those it was written with (the recorded hash differs)");
       }
-      const bool retarget = kind == "retarget-tile" || kind == "retarget-atlas";
-      if (const auto known = known_.find(hash); known != known_.end()) {
-        if (known->second) add_encoding(*known->second, candidate.name);
-        return;
-      }
-      known_[hash] = std::nullopt;
-      if (retarget) {
-        add_moves(candidate, content);
-      } else {
-        add_textures(candidate, content, hash);
+      if (slices_of(content) == 1 || content.image.depth > 1) return add_content(candidate, content);
+      // One of several; alone it is a picture like any other.
+      if (auto stack = stacks_.add(candidate, std::move(content))) {
+        Candidate whole = stack->first;
+        whole.name = fmt::format("{} and {} more", whole.name, stack->names.size() - 1);
+        add_content(whole, stack->content);
       }
     } catch (const Error& error) {
       if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
       keep_fault(error);
       note(candidate.name, error.info().what);
+    }
+  }
+
+  /// Slices whose stack is not whole: masks are pictures, each for itself; tiles lead nowhere.
+  void add_incomplete_stacks() {
+    for (const Stacks::Part& part : stacks_.incomplete()) {
+      const Candidate& first = part.slices.front().first;
+      const bool tiles = is_retarget(part.slices.front().second);
+      note(first.name, fmt::format("{} of {} slices are here, so {}", part.slices.size(), part.wanted,
+                                   tiles ? "they are left out" : "each is shown for itself"));
+      for (const auto& [candidate, content] : part.slices) {
+        if (tiles) break;
+        try {
+          add_content(candidate, content);
+        } catch (const Error& error) {
+          if (error.code() == ErrorCode::cancelled || error.code() == ErrorCode::over_limit) throw;
+          note(candidate.name, error.info().what);
+        }
+      }
     }
   }
 
@@ -106,40 +122,74 @@ class Collector {
     }
   }
 
-  /// Gives every set the levels of its mask.
+  /// Gives every set the levels of its masks.
   void find_masks() {
     for (RetargetSet& set : collection_.retarget_sets) {
-      const std::string hash = set.metadata.facts.get<std::string>("source_hash").value_or("");
-      const auto in_set = images_.find(hash);
-      std::optional<Image> image;
-      if (in_set != images_.end()) {
-        image = in_set->second.second;
-        set.mask_name = in_set->second.first;
-      } else if (set.metadata.facts.get<std::string>("source")) {
-        const fs::path relative(*set.metadata.facts.get<std::string>("source"));
-        const bool below =
-            relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
-        try {
-          if (below) {
-            FileContent content = read_image(folder_of_.at(set.name) / relative, execution_);
-            if (pixel_hash(content.image) == hash) image = std::move(content.image);
-            set.mask_name = *set.metadata.facts.get<std::string>("source");
-          }
-        } catch (const Error& error) {
-          if (error.code() == ErrorCode::cancelled) throw;
-        }
+      set.levels = find_levels(set, "source", set.mask_name);
+      std::string next_name;
+      const bool goes_elsewhere = set.metadata.facts.get<std::string>("to_hash").has_value();
+      if (goes_elsewhere && set.levels) {
+        set.to = find_levels(set, "to", next_name);
+        if (!set.to) set.levels.reset();
       }
-      const int channel = set.metadata.facts.get<int>("source_channel").value_or(0);
-      if (image && channel < image->channels && image->size == set.tiles.front().move.size()) {
-        set.levels = levels_of_channel(*image, channel).value;
-      } else {
-        note(set.name,
-             "its mask is not among the files, so residual, dither and energies are not recomputed");
-      }
+      if (set.levels) continue;
+      note(set.name,
+           fmt::format("{} not among the files, so residual, dither and energies are not recomputed",
+                       goes_elsewhere ? "its masks are" : "its mask is"));
     }
   }
 
  private:
+  static bool is_retarget(const FileContent& content) {
+    const std::string kind = content.metadata ? content.metadata->kind : "";
+    return kind == "retarget-tile" || kind == "retarget-atlas";
+  }
+
+  /// A file, or a stack of them.
+  void add_content(const Candidate& candidate, const FileContent& content) {
+    const std::string hash = pixel_hash(content.image);
+    if (const auto known = known_.find(hash); known != known_.end()) {
+      if (known->second) add_encoding(*known->second, candidate.name);
+      return;
+    }
+    known_[hash] = std::nullopt;
+    if (is_retarget(content)) {
+      add_moves(candidate, content);
+    } else {
+      add_textures(candidate, content, hash);
+    }
+  }
+
+  /// The levels of the mask that a set's metadata name as `which`, "source" or "to"; its name too.
+  std::optional<Grid<std::int32_t>> find_levels(const RetargetSet& set, const std::string& which,
+                                                std::string& name) const {
+    const Facts& facts = set.metadata.facts;
+    const std::string hash = facts.get<std::string>(which + "_hash").value_or("");
+    const auto path = facts.get<std::string>(which);
+    std::optional<Image> image;
+    if (const auto in_set = images_.find(hash); in_set != images_.end()) {
+      image = in_set->second.second;
+      name = in_set->second.first;
+    } else if (path) {
+      const fs::path relative(*path);
+      const bool below =
+          relative.is_relative() && std::find(relative.begin(), relative.end(), "..") == relative.end();
+      try {
+        if (below) {
+          Volume mask = read_volume(folder_of_.at(set.name) / relative, {}, execution_);
+          if (pixel_hash(mask.image) == hash) image = std::move(mask.image);
+          name = *path;
+        }
+      } catch (const Error& error) {
+        if (error.code() == ErrorCode::cancelled) throw;
+      }
+    }
+    const int channel = facts.get<int>("source_channel").value_or(0);
+    const Extent size = set.tiles.front().move.size();
+    if (!image || channel >= image->channels || image->size != size || image->depth != set.slices) return {};
+    return levels_of_channel(*image, channel).value;
+  }
+
   void note(const std::string& name, std::string_view what) {
     collection_.notes.push_back(fmt::format("{}: {}", name, what));
   }
@@ -166,10 +216,11 @@ class Collector {
 
   void add_textures(const Candidate& candidate, const FileContent& content, const std::string& hash) {
     images_.try_emplace(hash, candidate.name, content.image);
-    if (candidate.job.kind == "mask") {
+    if (candidate.job.kind == "mask" || candidate.job.kind == "spatiotemporal") {
       const auto [place, is_new] = mask_of_job_.try_emplace(candidate.job.job, collection_.textures.size());
       if (!is_new) return add_encoding(place->second, candidate.name);
     }
+    check_memory(execution_, static_cast<std::uint64_t>(content.image.shape().count()) * 64, candidate.name);
     const bool grey = is_grey_as_colour(content.image);
     if (grey) note(candidate.name, "channels 0, 1 and 2 are equal, grey stored as colour, so one is shown");
     std::vector<Texture> channels;
@@ -177,7 +228,7 @@ class Collector {
     for (int c = 0; c < std::min(content.image.channels, kMostChannels); ++c) {
       Texture texture;
       texture.name = candidate.name;
-      texture.shape = content.image.size;
+      texture.shape = content.image.shape();
       texture.samples = samples_of_channel(content.image, c);
       texture.type = content.image.type;
       texture.metadata = content.metadata;
@@ -232,29 +283,34 @@ class Collector {
 
   void add_moves(const Candidate& candidate, const FileContent& content) {
     const Metadata& metadata = *content.metadata;
-    std::vector<RetargetSet::Tile> tiles;
-    const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(metadata.tiles.size()))));
-    if (metadata.tiles.empty() || !metadata.facts.get<Offset>("step") || !metadata.facts.get<int>("radius") ||
-        *metadata.facts.get<int>("radius") < 1 || *metadata.facts.get<int>("radius") > 32 ||
-        (metadata.kind == "retarget-atlas" && side * side != static_cast<int>(metadata.tiles.size())) ||
-        (metadata.kind == "retarget-tile" && metadata.tiles.size() != 1) ||
-        content.image.size.width % side != 0 || content.image.size.height % side != 0) {
+    const Facts& facts = metadata.facts;
+    if (facts.get<int>("step_z")) {
+      return note(candidate.name, "its seeds move between slices, which this page does not show");
+    }
+    const int slices = content.image.depth;
+    const int motions = static_cast<int>(metadata.tiles.size()) / slices;
+    const auto side = static_cast<int>(std::lround(std::sqrt(static_cast<double>(motions))));
+    const int radius = facts.get<int>("radius").value_or(0);
+    if (metadata.tiles.empty() || metadata.tiles.size() % static_cast<std::size_t>(slices) != 0 ||
+        !facts.get<Offset>("step") || radius < 1 || radius > 32 || side * side != motions ||
+        (metadata.kind == "retarget-tile" && motions != 1) || content.image.size.width % side != 0 ||
+        content.image.size.height % side != 0) {
       return note(candidate.name, "its metadata do not fit its picture");
     }
+    std::vector<RetargetSet::Tile> tiles;
     const Extent size{content.image.size.width / side, content.image.size.height / side};
-    for (std::size_t i = 0; i < metadata.tiles.size(); ++i) {
-      Grid<Offset> move =
-          decode_moves(side == 1 ? content.image : atlas_tile(content.image, size, static_cast<int>(i)));
-      if (metadata.facts.get<std::string>("form") == "gather") move = invert_moves(move);
-      tiles.push_back({metadata.tiles[i], std::move(move)});
+    for (int i = 0; i < slices * motions; ++i) {
+      const Image slice = slice_of(content.image, i / motions);
+      Grid<Offset> move = decode_moves(side == 1 ? slice : atlas_tile(slice, size, i % motions));
+      if (facts.get<std::string>("form") == "gather") move = invert_moves(move);
+      tiles.push_back({metadata.tiles[static_cast<std::size_t>(i)], std::move(move), i / motions});
     }
-    const std::string key = fmt::format(
-        "{} {} {},{} {} {} {} {} {}x{}", metadata.facts.get<std::string>("source_hash").value_or(""),
-        metadata.facts.get<int>("source_channel").value_or(0), metadata.facts.get<Offset>("step")->x,
-        metadata.facts.get<Offset>("step")->y, *metadata.facts.get<int>("radius"),
-        metadata.facts.get<std::string>("reach").value_or(""),
-        metadata.facts.get<std::string>("metric").value_or(""),
-        metadata.facts.get<bool>("wrap").value_or(true), size.width, size.height);
+    const auto text = [&](const char* name) { return facts.get<std::string>(name).value_or(""); };
+    const Offset step = *facts.get<Offset>("step");
+    const std::string key =
+        fmt::format("{} {} {} {},{} {} {} {} {} {}x{}x{}", text("source_hash"), text("to_hash"),
+                    facts.get<int>("source_channel").value_or(0), step.x, step.y, radius, text("reach"),
+                    text("metric"), facts.get<bool>("wrap").value_or(true), size.width, size.height, slices);
     auto place = set_of_.find(key);
     if (place == set_of_.end()) {
       place = set_of_.emplace(key, collection_.retarget_sets.size()).first;
@@ -262,7 +318,9 @@ class Collector {
                       .files = {},
                       .metadata = metadata,
                       .tiles = {},
+                      .slices = slices,
                       .levels = {},
+                      .to = {},
                       .mask_name = {},
                       .seconds = candidate.job.seconds};
       folder_of_[set.name] = candidate.path.parent_path();
@@ -272,13 +330,13 @@ class Collector {
     set.files.push_back(candidate.name);
     for (auto& tile : tiles) {
       const auto same = [&](const RetargetSet::Tile& other) {
-        return other.record.motion == tile.record.motion;
+        return other.slice == tile.slice && other.record.motion == tile.record.motion;
       };
       if (std::none_of(set.tiles.begin(), set.tiles.end(), same)) set.tiles.push_back(std::move(tile));
     }
     std::sort(set.tiles.begin(), set.tiles.end(), [](const auto& a, const auto& b) {
-      return std::tuple(a.record.motion.y, a.record.motion.x) <
-             std::tuple(b.record.motion.y, b.record.motion.x);
+      return std::tuple(a.slice, a.record.motion.y, a.record.motion.x) <
+             std::tuple(b.slice, b.record.motion.y, b.record.motion.x);
     });
   }
 
@@ -288,6 +346,7 @@ class Collector {
   std::map<std::string, std::pair<std::string, Image>> images_;  // pixel hash to name and samples
   std::map<std::string, std::size_t> mask_of_job_, set_of_;
   std::map<std::string, fs::path> folder_of_;
+  Stacks stacks_;
 };
 
 }  // namespace
@@ -318,6 +377,7 @@ Collection collect(const ReportOptions& options, const Execution& execution) {
     collector.add_volume(slices.size() == 1 ? first : fmt::format("{} and {} more", first, slices.size() - 1),
                          slices);
   }
+  collector.add_incomplete_stacks();
   collector.find_masks();
   return collection;
 }

@@ -29,18 +29,22 @@ struct Texture {
   std::string independence;  ///< a sentence that says so, for channels that are independent; else empty
 };
 
-/// The retarget tiles of one mask and one set of options, in scatter form, in the order of their motions by
-/// row.
+/// The retarget tiles of one mask or stack of masks and one set of options, in scatter form, in the order of
+/// their slices and of their motions by row.
 struct RetargetSet {
   struct Tile {
     TileRecord record;
     Grid<Offset> move;
+    int slice = 0;  ///< of the stack that its seeds start from
   };
   std::string name;
   std::vector<std::string> files;
   Metadata metadata;  ///< of its first file; tiles and recipe are that file's
   std::vector<Tile> tiles;
-  std::optional<Grid<std::int32_t>> levels;  ///< of its mask, if that is at hand
+  int slices = 1;  ///< of the stack that its tiles lead through
+  /// Of its mask or stack, if that is at hand with all the tiles need.
+  std::optional<Grid<std::int32_t>> levels;
+  std::optional<Grid<std::int32_t>> to;  ///< of the next frame's mask, where a file of its own has it
   std::string mask_name;
   std::optional<double> seconds;
 };

@@ -1,111 +1,28 @@
-// The page of a validation study: for each scene its figures, tables and pictures, read back from the files
-// that the study left. So a study made elsewhere can be shown here, and the page can hold nothing that no
-// file says.
+// The page of a validation study: for each scene what its figures say, tables, curves and pictures.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <sstream>
 
-#include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
 #include "report/html.h"
 #include "report/page.h"
+#include "report/study_parts.h"
 
 namespace bn {
 namespace {
 
 namespace fs = std::filesystem;
+using report::Csv;
 using report::Curve;
+using report::distinct;
 using report::Plot;
 using report::PlotStyle;
 using report::Role;
-
-/// A CSV file without quotes, as the study writes them: rows by column name.
-class Csv {
- public:
-  Csv(const fs::path& path, const std::vector<std::string>& needed) : path_(path) {
-    std::ifstream file(path);
-    std::string line;
-    if (!std::getline(file, line)) fail("cannot be read", ErrorCode::io);
-    names_ = split(line);
-    for (const std::string& name : needed) column(name);
-    while (std::getline(file, line)) {
-      rows_.push_back(split(line));
-      if (rows_.back().size() != names_.size())
-        fail(fmt::format("line {} has {} columns, not {}", rows_.size() + 1, rows_.back().size(),
-                         names_.size()),
-             ErrorCode::invalid_input);
-    }
-  }
-
-  std::size_t rows() const { return rows_.size(); }
-  const std::string& text(std::size_t row, const std::string& name) const { return rows_[row][column(name)]; }
-  double number(std::size_t row, const std::string& name) const {
-    const std::string& value = text(row, name);
-    double result = std::nan("");
-    std::istringstream in(value);
-    in.imbue(std::locale::classic());
-    if (!value.empty() && !(in >> result))
-      fail(fmt::format("'{}' is no number", value), ErrorCode::invalid_input);
-    return result;
-  }
-
- private:
-  [[noreturn]] void fail(std::string what, ErrorCode code) const {
-    throw Error({.code = code,
-                 .what = std::move(what),
-                 .where = path_.string(),
-                 .limit = "",
-                 .remedy = "name a folder that bn validate wrote"});
-  }
-  static std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-      if (c == ',') {
-        cells.emplace_back();
-      } else {
-        cells.back() += c;
-      }
-    }
-    return cells;
-  }
-  std::size_t column(const std::string& name) const {
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    if (found == names_.end()) fail("no column " + name, ErrorCode::invalid_input);
-    return static_cast<std::size_t>(found - names_.begin());
-  }
-
-  fs::path path_;
-  std::vector<std::string> names_;
-  std::vector<std::vector<std::string>> rows_;
-};
-
-/// The values of a column in the order they first appear.
-std::vector<std::string> distinct(const Csv& csv, const std::string& column, const std::string& scene) {
-  std::vector<std::string> values;
-  for (std::size_t row = 0; row < csv.rows(); ++row) {
-    if (!scene.empty() && csv.text(row, "scene") != scene) continue;
-    const std::string& value = csv.text(row, column);
-    if (std::find(values.begin(), values.end(), value) == values.end()) values.push_back(value);
-  }
-  return values;
-}
-
-struct Study {
-  Csv summary, errors, radial, passes;
-  explicit Study(const fs::path& folder)
-      : summary(folder / "summary.csv", {"scene", "variant", "region", "db_against_white"}),
-        errors(folder / "errors.csv",
-               {"scene", "variant", "frame", "region", "rmse", "power_to_0.1", "reference_power_to_0.1"}),
-        radial(folder / "radial.csv", {"scene", "variant", "frame", "region", "frequency", "power"}),
-        passes(folder / "passes.csv",
-               {"scene", "variant", "pass", "milliseconds", "percent_of_frame", "bytes"}) {}
-};
+using report::Study;
 
 /// The methods that plots show, a colour each; white noise is the line at 0 dB.
 std::vector<std::string> plotted_variants(const Study& study, const std::string& scene) {
@@ -182,87 +99,54 @@ Plot frames_plot(const Study& study, const std::string& scene, const std::string
   return plot;
 }
 
-std::string summary_table(const Study& study, const std::string& scene,
-                          const std::vector<std::string>& regions) {
-  std::string head = "<tr><th scope=\"col\">error at f ≤ 0.1 against white noise, dB</th>";
-  for (const std::string& region : regions)
-    head += fmt::format("<th scope=\"col\">{}</th>", report::escaped(region));
-  std::map<std::pair<std::string, std::string>, std::string> cells;
-  for (std::size_t row = 0; row < study.summary.rows(); ++row) {
-    if (study.summary.text(row, "scene") != scene) continue;
-    cells[{study.summary.text(row, "variant"), study.summary.text(row, "region")}] =
-        fmt::format("{:.1f}", study.summary.number(row, "db_against_white"));
-  }
-  std::string rows;
-  for (const std::string& variant : distinct(study.summary, "variant", scene)) {
-    rows += fmt::format("<tr><th scope=\"row\">{}</th>", report::escaped(variant));
-    for (const std::string& region : regions) rows += fmt::format("<td>{}</td>", cells[{variant, region}]);
-    rows += "</tr>\n";
-  }
-  return fmt::format(
-      "<div class=\"wide\"><table class=\"summary\"><thead>{}</tr></thead><tbody>{}</tbody></table></div>\n",
-      head, rows);
-}
-
-/// What was published of the same passes, measured on a GPU, as a share of the frame there.
-std::string_view published_share(std::string_view pass) {
-  return pass == "retarget" ? "0.57 %" : pass == "sort" ? "11.1 % at B = 64, about 3 % at B = 16" : "";
-}
-
-std::string pass_table(const Study& study, const std::string& scene) {
-  std::string rows;
-  for (std::size_t row = 0; row < study.passes.rows(); ++row) {
-    if (study.passes.text(row, "scene") != scene || study.passes.text(row, "variant") != "reproject")
-      continue;
-    const std::string& pass = study.passes.text(row, "pass");
-    rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{:.2f} ms</td><td>{:.1f} %</td><td>{}</td><td>{} KiB</td></tr>\n",
-        report::escaped(pass), study.passes.number(row, "milliseconds"),
-        study.passes.number(row, "percent_of_frame"), published_share(pass),
-        report::whole(static_cast<std::int64_t>(study.passes.number(row, "bytes") / 1024)));
-  }
-  if (rows.empty()) return {};
-  return fmt::format(
-      "<h3>Cost of reprojected retarget</h3><div class=\"wide\"><table class=\"summary\"><thead><tr><th "
-      "scope=\"col\">pass</th><th scope=\"col\">time</th><th scope=\"col\">of the frame</th><th "
-      "scope=\"col\">published</th><th scope=\"col\">buffers read and "
-      "written</th></tr></thead><tbody>{}</tbody>"
-      "</table></div>\n<p>Medians over the frames. Published: measured on a GPU, with textures of 16.1 + "
-      "12.1 + "
-      "980 + 7920 KB.</p>\n",
-      rows);
-}
-
-/// Names with commas between, as HTML.
-std::string listed(const std::vector<std::string>& names) {
+/// In how many scenes each method is the best or within the scatter of it: the study in one sentence.
+std::string overall(const std::map<std::string, int>& wins, std::size_t scenes) {
+  std::vector<std::pair<std::string, int>> order(wins.begin(), wins.end());
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.second > b.second; });
+  if (order.empty()) return "";
   std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + report::escaped(name);
-  return text;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i)
+    text +=
+        fmt::format("{}<b>{}</b> ({})", i == 0 ? "" : ", ", report::escaped(order[i].first), order[i].second);
+  return fmt::format(
+      "<p class=\"verdict\">Best, or within about {} dB of it, in how many of {} scene{}: {}.</p>\n",
+      report::kScatter_db, scenes, scenes == 1 ? "" : "s", text);
 }
 
-std::string sheets(const Study& study, const std::string& scene, const fs::path& folder) {
-  std::vector<std::string> methods = distinct(study.errors, "variant", scene);
-  std::erase_if(methods, [](const std::string& name) { return name.find("-block-") != std::string::npos; });
-  std::vector<std::string> temporal = methods;
-  std::erase_if(temporal, [](const std::string& name) {
-    return name != "sort" && name != "retarget" && name != "reproject";
-  });
-  std::string html;
-  const auto add = [&](std::string_view file, std::string title, std::string caption) {
-    const fs::path path = folder / scene / file;
-    if (fs::exists(path))
-      html += report::figure({read_image(path).image, 1, std::move(title), std::move(caption)});
-  };
-  add("first-frames.png", "The first seven frames.",
-      "Errors in the middle of the first region, and under each its spectrum, dark where there is none; two "
-      "rows "
-      "a method: " +
-          listed(temporal) + ".");
-  add("methods.png", "The last frame of each method,",
-      "from left to right: " + listed(methods) + ". Picture, error, spectrum.");
-  add("blocks.png", "Block sizes 2, 4, 8, 16",
-      "with retarget: picture, error and spectrum at the last frame.");
-  return html;
+/// A section, and what its methods add to `wins`.
+report::Section scene_section(const Study& study, const report::StudyScene& scene, const fs::path& folder,
+                              std::map<std::string, int>& wins, std::string& kind,
+                              std::vector<std::string>& notes) {
+  const std::string& name = scene.name;
+  const std::vector<std::string> regions = distinct(study.summary, "region", name);
+  const std::vector<report::MethodRow> rows = report::rows_of(study, name);
+  // The first region that the scene names; the whole picture stands before it.
+  const std::size_t index = regions.size() > 1 ? 1 : 0;
+  const std::string& region = regions[index];
+  const std::string last = distinct(study.errors, "frame", name).back();
+  const report::MethodRow* best = report::best_of(rows, index);
+  for (const report::MethodRow& row : rows) {
+    if (best != nullptr && row.db[index] <= best->db[index] + report::kScatter_db) ++wins[row.name];
+  }
+  kind = report::short_verdict(rows, region, index);
+  report::Section section;
+  section.plots = {radial_plot(study, name, region, last), frames_plot(study, name, region)};
+  section.html =
+      fmt::format(
+          "<h2>{}</h2>\n<p class=\"about\">{} Converged pictures: {} paths a pixel, own RMSE {}.</p>\n",
+          report::escaped(name), report::escaped(scene.about), report::whole(study.reference_paths),
+          report::number(scene.reference_rmse)) +
+      report::verdict_html(rows, region, index) +
+      report::frames_html(name, best == nullptr ? "" : best->name, folder) +
+      report::methods_table(rows, regions, scene) + "<div class=\"plots\">" +
+      report::plot_figure(section.plots[0], 0, "Radial power",
+                          fmt::format("of the error in region “{}” at frame {}, dB.", report::escaped(region),
+                                      report::escaped(last))) +
+      report::plot_figure(section.plots[1], 1, "Low frequencies by frame",
+                          fmt::format("f ≤ 0.1 in region “{}”, dB.", report::escaped(region))) +
+      "</div>\n" + report::sheets_html(study, name, region, folder, notes) + report::pass_table(study, name);
+  return section;
 }
 
 }  // namespace
@@ -272,43 +156,27 @@ void write_study_report(const fs::path& study_folder, const fs::path& out, const
   const Study study(study_folder);
   report::Page page;
   page.title = "Validation";
-  page.introduction =
-      "Each scene with one path a pixel, by every way to choose random numbers. Errors are against converged "
-      "pictures, whose own error is taken off; frequencies are in cycles/pixel. A click on a picture shows "
-      "it "
-      "larger.";
-  for (const std::string& scene : distinct(study.summary, "scene", "")) {
-    // Names become paths below: a study names its scenes in letters, digits, spaces, hyphens.
-    const bool plain = std::all_of(scene.begin(), scene.end(), [](char c) {
-      return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' ||
-             c == '_' || c == ' ';
-    });
-    if (!plain || scene.empty()) {
-      throw Error({.code = ErrorCode::invalid_input,
-                   .what = fmt::format("scene '{}'", scene),
-                   .where = (study_folder / "summary.csv").string(),
-                   .limit = "letters, digits, spaces, - and _",
-                   .remedy = ""});
-    }
+  std::map<std::string, int> wins;
+  const std::vector<std::string> shown = distinct(study.summary, "scene", "");
+  for (const report::StudyScene& scene : study.scenes) {
+    if (std::find(shown.begin(), shown.end(), scene.name) == shown.end()) continue;
     throw_if_stopped(execution);
-    const std::vector<std::string> regions = distinct(study.summary, "region", scene);
-    const std::string& region = regions.size() > 1 ? regions[1] : regions[0];
-    const std::string last = distinct(study.errors, "frame", scene).back();
-    report::Section section;
-    section.plots = {radial_plot(study, scene, region, last), frames_plot(study, scene, region)};
-    section.html = fmt::format("<h2>{}</h2>\n", report::escaped(scene)) +
-                   summary_table(study, scene, regions) + "<div class=\"plots\">" +
-                   report::plot_figure(section.plots[0], 0, "Radial power",
-                                       fmt::format("of the error in region “{}” at frame {}, dB.",
-                                                   report::escaped(region), report::escaped(last))) +
-                   report::plot_figure(section.plots[1], 1, "Low frequencies by frame",
-                                       fmt::format("f ≤ 0.1 in region “{}”, dB.", report::escaped(region))) +
-                   "</div>\n<div class=\"pictures\">" + sheets(study, scene, study_folder) + "</div>\n" +
-                   pass_table(study, scene);
-    page.names.push_back(scene);
-    page.kinds.push_back("scene");
-    page.sections.push_back(std::move(section));
+    page.names.push_back(scene.name);
+    page.kinds.emplace_back();
+    page.sections.push_back(scene_section(study, scene, study_folder, wins, page.kinds.back(), page.notes));
   }
+  page.introduction = fmt::format(
+      "{} × {} pixels, one path a pixel, {} bounces, {} frames, sort blocks of {} × {}, on {}. dB: error at "
+      "0 "
+      "&lt; <i>f</i> ≤ 0.1 cycles/pixel against white noise's, over frames {} to {}, the converged picture's "
+      "own "
+      "error taken off; about 1 dB is scatter. The other figures are of the whole picture at the last frame: "
+      "error (RMSE), after a blur of 1.5 pixels, change of the blurred error from frame to frame along the "
+      "motion (flicker), error of the exponential average over time. Less is better everywhere.",
+      study.width, study.height, study.bounces, study.frames + 1, study.block, study.block,
+      report::escaped(study.device), study.first_counted, study.frames);
+  page.preface = overall(wins, page.sections.size());
+  page.appendix = report::method_words(study);
   std::vector<Plot> plots;
   for (const auto& section : page.sections)
     plots.insert(plots.end(), section.plots.begin(), section.plots.end());

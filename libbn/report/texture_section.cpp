@@ -7,6 +7,7 @@
 
 #include "report/html.h"
 #include "report/section.h"
+#include "report/slice_bands.h"
 #include "report/texture_pictures.h"
 #include "report/verdict.h"
 
@@ -55,7 +56,8 @@ std::string about(const Texture& texture) {
   std::string line = fmt::format("{} pixels, {}", size_of(texture.shape), name_of(texture.type));
   if (texture.metadata) {
     if (!texture.metadata->algorithm.empty()) line += ", " + escaped(texture.metadata->algorithm);
-    if (texture.metadata->facts.get<std::int64_t>("seed")) line += fmt::format(", seed {}", *texture.metadata->facts.get<std::int64_t>("seed"));
+    if (texture.metadata->facts.get<std::int64_t>("seed"))
+      line += fmt::format(", seed {}", *texture.metadata->facts.get<std::int64_t>("seed"));
   }
   if (texture.seconds) line += fmt::format(", made in {} s", number(*texture.seconds));
   if (!texture.independence.empty())
@@ -153,7 +155,10 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
   plots += add_plot(histogram_plot(texture, file_name + "-histogram"), "Histogram",
                     fmt::format("Counts against an even spread. Largest deviation {}.",
                                 number(figures.histogram_max_deviation)));
+  SliceBands slices;
   if (volume) {
+    slices = slice_bands(values, shape, execution);
+    main_plots += add_plot(slices.plot(file_name + "-slices"), "Power by slice", slices.words());
     RadialCurve time = radial_power(project(analysis.power, Projection::z));
     time.frequency.insert(time.frequency.begin(), 0.0);
     time.power.insert(time.power.begin(), figures.temporal_power_at_0);
@@ -170,7 +175,7 @@ Section texture_section(const Texture& texture, const Reference& reference, cons
   section.html = fmt::format("<h2>{} {} {}</h2>\n{}{}", escaped(texture.name), verdict.badge_html, grade,
                              reasons_html(verdict), about(texture)) +
                  gallery(view, execution) + "<div class=\"pair\">" + tiling(view) +
-                 merit_table(figures, verdict) + "</div>\n" + levels(view, execution) +
+                 merit_table(figures, verdict, slices) + "</div>\n" + levels(view, execution) +
                  (volume ? volume_strips(view, execution) : "") + "<div class=\"plots two\">" + main_plots +
                  plots + "</div>\n";
   section.overview = overview_of(figures, verdict);

@@ -18,9 +18,19 @@ std::string allowed(double low, double high) {
 
 /// A picture that nobody calls a mask.
 bool is_a_picture(const Texture& texture, const Judgement& judgement) {
-  if (texture.shape.depth > 1 || (texture.metadata && texture.metadata->kind == "mask")) return false;
+  if (texture.shape.depth > 1 || (texture.metadata && (texture.metadata->kind == "mask" ||
+                                                       texture.metadata->kind == "spatiotemporal-mask"))) {
+    return false;
+  }
   return std::any_of(judgement.findings.begin(), judgement.findings.end(),
                      [](const Finding& finding) { return finding.cause == Cause::picture; });
+}
+
+/// A volume whose preset is for the filtered picture alone: its slices are blue noise, a pixel's series is
+/// not meant to be.
+bool is_for_a_filter(const Texture& texture) {
+  return texture.metadata && texture.metadata->kind == "spatiotemporal-mask" &&
+         texture.metadata->recipe.find("\npreset = \"filtered\"\n") != std::string::npos;
 }
 
 }  // namespace
@@ -30,8 +40,14 @@ Verdict verdict_of(const Texture& texture, const Analysis& analysis, const Execu
   Verdict verdict;
   Judgement& judgement = verdict.judgement;
   judgement = judge_texture({values, texture.shape, low, std::max(high, low + 1e-300)}, analysis,
-                            texture.shape.depth > 1 ? Check::stbn : Check::blue, execution);
+                            texture.shape.depth > 1 && !is_for_a_filter(texture) ? Check::stbn : Check::blue,
+                            execution);
   verdict.reasons = judgement.reasons;
+  if (texture.shape.depth > 1 && is_for_a_filter(texture)) {
+    verdict.reasons.emplace_back(
+        "judged by its slices: the preset filtered is for the blurred and averaged picture, not for one "
+        "pixel's series");
+  }
   std::string words = judgement.headline;
   if (is_a_picture(texture, judgement)) {
     verdict.reasons = {"not judged: it does not say that it is a mask, and it " +
@@ -87,16 +103,18 @@ std::string reasons_html(const Verdict& verdict) {
   return "<ul class=\"reasons\">" + items + "</ul>\n";
 }
 
-std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
+std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict, const SliceBands& slices) {
   const Judgement& judgement = verdict.judgement;
+  const bool volume = !slices.of_slice.empty();
   std::string rows;
   const auto row = [&](const std::string& label, const std::string& value, const std::string& limits,
-                       const std::string& best, const std::string& score, const std::string& mark) {
+                       const std::string& best, const std::string& score, const std::string& mark,
+                       const std::string& worst = "") {
     rows += fmt::format(
-        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n", label,
-        value, limits, best, score, mark);
+        "<tr><th scope=\"row\">{}</th><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}</tr>\n",
+        label, value, limits, best, score, mark, volume ? fmt::format("<td>{}</td>", worst) : "");
   };
-  const auto with_threshold = [&](const std::string& name, double value) {
+  const auto with_threshold = [&](const std::string& name, double value, const std::string& worst = "") {
     std::string limits, best, score, mark;
     for (const JudgedFigure& judged : judgement.judged) {
       if (judged.figure == name) limits = allowed(judged.low, judged.high), mark = badge(judged.passed);
@@ -106,10 +124,10 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
       if (name != "anisotropy_db_mean") best = number(part.best);
       score = score_text(part.score);
     }
-    row(label_of(name), number(value), limits, best, score, mark);
+    row(label_of(name), number(value), limits, best, score, mark, worst);
   };
   for (std::size_t b = 0; b < figures.bands.mean.size(); ++b) {
-    with_threshold(fmt::format("bands[{}]", b), figures.bands.mean[b]);
+    with_threshold(fmt::format("bands[{}]", b), figures.bands.mean[b], volume ? slices.greatest(b) : "");
   }
   if (figures.shape.depth > 1) {
     with_threshold("temporal_power_at_0", figures.temporal_power_at_0);
@@ -133,8 +151,8 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict) {
       "the least "
       "is the grade.</caption><thead><tr><th scope=\"col\">figure</th><th scope=\"col\">value</th><th "
       "scope=\"col\">allowed</th><th scope=\"col\">best known</th><th scope=\"col\">score</th><th "
-      "scope=\"col\">verdict</th></tr></thead><tbody>{}</tbody></table></div>\n",
-      rows);
+      "scope=\"col\">verdict</th>{}</tr></thead><tbody>{}</tbody></table></div>\n",
+      volume ? "<th scope=\"col\">worst slice</th>" : "", rows);
 }
 
 }  // namespace bn::report

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bn/judgement.h"
+#include "report/slice_bands.h"
 #include "report/sources.h"
 
 namespace bn::report {
@@ -28,8 +29,9 @@ std::string score_text(double score);
 /// The words of a figure, by its JSON name; HTML.
 std::string label_of(const std::string& figure);
 
-/// Every figure, with its threshold, the best known and its score where it has them.
-std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict);
+/// Every figure, with its threshold, the best known and its score where it has them; the worst slice of a
+/// volume.
+std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict, const SliceBands& slices);
 
 /// The reasons as a list; nothing where there are none.
 std::string reasons_html(const Verdict& verdict);

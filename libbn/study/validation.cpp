@@ -81,6 +81,7 @@ void run_study(const StudyOptions& options, const TemporalTextures& textures,
   write_text_file(folder / "radial.csv", radial_csv(results));
   write_text_file(folder / "passes.csv", passes_csv(results));
   write_text_file(folder / "summary.csv", summary_csv(results));
+  write_text_file(folder / "study.json", study_json(results, options, name));
   write_text_file(folder / "report.md", report_md(results, options, name));
   progress.finish();
 }

@@ -153,6 +153,9 @@ std::string errors_csv(const std::vector<SceneResult>& results);
 std::string radial_csv(const std::vector<SceneResult>& results);
 std::string passes_csv(const std::vector<SceneResult>& results);
 std::string summary_csv(const std::vector<SceneResult>& results);
+/// What the figures are of: screen, frames, device, scenes; for the page.
+std::string study_json(const std::vector<SceneResult>& results, const StudyOptions& options,
+                       const std::string& device);
 std::string report_md(const std::vector<SceneResult>& results, const StudyOptions& options,
                       const std::string& device);
 

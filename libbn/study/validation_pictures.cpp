@@ -9,27 +9,24 @@
 
 #include "bn/spectrum.h"
 #include "bn/texture.h"
+#include "report/sheet.h"
 #include "study/validation.h"
 
 namespace bn::study {
 namespace {
 
 using Pixel = std::array<std::uint8_t, 3>;
-constexpr int kScale = 2;  // sheet pixels a pixel
-constexpr int kGap = 4;
-constexpr std::uint8_t kPaper = 255;
+constexpr int kScale = report::kSheetScale, kGap = report::kSheetGap;
 
 std::uint8_t grey(double value) {
   return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));
 }
 
-/// Squares of one size in rows, on white.
+/// Squares of one size in rows; what is between them is transparent.
 class Sheet {
  public:
   Sheet(int side, int columns, int rows)
-      : side_(side), pitch_(side * kScale + kGap), pixels_({columns * pitch_ + kGap, rows * pitch_ + kGap}) {
-    std::fill(pixels_.begin(), pixels_.end(), Pixel{kPaper, kPaper, kPaper});
-  }
+      : side_(side), pitch_(side * kScale + kGap), pixels_({columns * pitch_ + kGap, rows * pitch_ + kGap}) {}
 
   template <class Value>
   void put(int column, int row, const Value& pixel_at) {
@@ -59,9 +56,11 @@ class Sheet {
   }
 
   void write(const std::filesystem::path& path) const {
-    Image image{.size = pixels_.size(), .channels = 3, .type = SampleType::u8, .samples = {}};
-    for (const Pixel& pixel : pixels_) {
-      for (const std::uint8_t channel : pixel) image.samples.push_back(static_cast<std::byte>(channel));
+    Image image{.size = pixels_.size(), .channels = 4, .type = SampleType::u8, .samples = {}};
+    for (const std::optional<Pixel>& pixel : pixels_) {
+      for (const std::uint8_t channel : pixel.value_or(Pixel{}))
+        image.samples.push_back(static_cast<std::byte>(channel));
+      image.samples.push_back(static_cast<std::byte>(pixel ? 255 : 0));
     }
     Metadata metadata;
     metadata.algorithm = "validate";
@@ -71,7 +70,7 @@ class Sheet {
 
  private:
   int side_, pitch_;
-  Grid<Pixel> pixels_;
+  Grid<std::optional<Pixel>> pixels_;
 };
 
 Pixel unpacked(std::uint32_t shown) {
@@ -141,8 +140,8 @@ void write_pictures(const SceneResult& result, const std::filesystem::path& fold
             [](const Sequence* a, const Sequence* b) { return a->variant.block < b->variant.block; });
   last_frames(methods, "methods.png");
   if (blocks.size() > 1) last_frames(blocks, "blocks.png");
-  for (const Sequence* sequence : methods)
-    write_frame(sequence->last_shown, folder / fmt::format("{}.png", sequence->variant.name));
+  for (const Sequence& sequence : result.sequences)
+    write_frame(sequence.last_shown, folder / fmt::format("{}.png", sequence.variant.name));
 }
 
 }  // namespace bn::study

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "render/camera.h"
 #include "study/validation.h"
 
 namespace bn::study {
@@ -83,6 +85,30 @@ std::string summary_csv(const std::vector<SceneResult>& results) {
     }
   }
   return text;
+}
+
+std::string study_json(const std::vector<SceneResult>& results, const StudyOptions& options,
+                       const std::string& device) {
+  nlohmann::ordered_json json{{"size", {options.screen.width, options.screen.height}},
+                              {"bounces", options.bounces},
+                              {"frames", options.frames},
+                              {"first_counted", first_counted(options.frames)},
+                              {"block", options.block},
+                              {"jitter", options.jitter},
+                              {"sort_by_light", options.sort_by_light},
+                              {"seed", options.seed},
+                              {"reference_paths", options.reference_samples},
+                              {"device", device},
+                              {"scenes", nlohmann::json::array()}};
+  for (const SceneResult& result : results) {
+    bool moves = false;
+    for (int frame = 1; frame <= options.frames; ++frame) moves |= !render::same_view(result.scene, frame, 0);
+    json["scenes"].push_back({{"name", result.scene.name},
+                              {"about", result.scene.about},
+                              {"moves", moves},
+                              {"reference_rmse", result.reference_rms}});
+  }
+  return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string report_md(const std::vector<SceneResult>& results, const StudyOptions& options,

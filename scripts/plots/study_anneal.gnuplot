@@ -25,7 +25,7 @@ set autoscale
 }
 
 if (traces) {
-# Columns of traces: step,seconds,temperature,energy,best,lower_bound,accepted,...; a bound of 0 is none. The
+# Columns of traces: proposals,seconds,temperature,energy,best,lower_bound,accepted,...; a bound of 0 is none. The
 # first points are the fall from the start, which no axis shows beside the rest.
 trace(i) = "trace_".word(schedules, i).".csv"
 longest = 0
@@ -82,7 +82,7 @@ plot for [name in accepting] "trace_".name.".csv" skip 3 using ($1/scale):($7 > 
 }
 unset logscale
 
-# surface.csv: step,worsening_class,share on a full grid; NaN where fewer than eight were tried. A short run has counted
+# surface.csv: proposals,worsening_class,share on a full grid; NaN where fewer than eight were tried. A short run has counted
 # hardly any, and a figure of it would be empty.
 stats "surface.csv" skip 1 using 3 nooutput
 if (STATS_records > 0.3*(STATS_records+STATS_invalid)) {
@@ -119,7 +119,9 @@ if (throughput) {
 set output figure("threads")
 set title "Throughput against threads, 512 × 512 at constant temperature"
 set xlabel "threads"
-set ylabel "proposals a second, 10^9"
+stats "throughput.csv" skip 1 using ($2 == 512 ? $5 : NaN) nooutput
+scale = 10.0**exponent(STATS_max)
+set ylabel counted("proposals a second", STATS_max)
 set xrange [0:*]
 set yrange [0:*]
 set xtics 1
@@ -128,10 +130,10 @@ temperatures = "3 0.5"
 at(i) = word(temperatures, i)
 array alone[2]
 do for [i=1:2] {
-  stats "throughput.csv" skip 1 using ($2 == 512 && $3 == 1 && $4 == at(i) ? $5/1e9 : NaN) nooutput
+  stats "throughput.csv" skip 1 using ($2 == 512 && $3 == 1 && $4 == at(i) ? $5/scale : NaN) nooutput
   alone[i] = STATS_max
 }
-plot for [i=1:2] "throughput.csv" skip 1 using ($2 == 512 && $4 == at(i) ? $3 : NaN):($5/1e9) \
+plot for [i=1:2] "throughput.csv" skip 1 using ($2 == 512 && $4 == at(i) ? $3 : NaN):($5/scale) \
     with linespoints ls i ps 1 title "T = ".at(i), \
-  for [i=1:2] alone[i]*x ls 8 lw 1 title i == 1 ? "ideal: as many times one thread" : ""
+  for [i=1:2] alone[i]*x ls 8 lw 1 title i == 1 ? "ideal: threads × one thread" : ""
 }

@@ -2,6 +2,7 @@
 // letters exist.
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "bake/canvas.h"
 #include "bake/label_font.h"
@@ -44,6 +45,47 @@ TEST(ContactSheet, PutsManyMasksIntoAGrid) {
   EXPECT_EQ(size(32).height - size(28).height, size(28).height - size(24).height) << "four in a row";
   EXPECT_EQ(size(29), size(32));
   EXPECT_EQ(size(1).width, size(32).width);
+}
+
+TEST(ContactSheet, ShowsSpatiotemporalMasks) {
+  const TemporaryFolder out;
+  const std::string stack = "[[spatiotemporal]]\nname = 's'\nsize = [16, 16, 4]\noutputs = ['s.ktx2']\n";
+  const std::string set = "[[retarget]]\nname = 'r'\nmask = 's'\nradius = 2\noutputs = ['t.ktx2']\n";
+  const auto sheet = [&](const std::string& recipe) {
+    bake(parse_recipe("version = 1\n" + recipe, "r", ""), {.out_dir = out, .force = true});
+    return read_image(out / "contact_sheet.png").image;
+  };
+  const Image one = sheet(stack);
+  // A row of four panels: each differs from the paper.
+  EXPECT_GT(one.size.height, 400);
+  const auto pixel = [&](int x, int y) {
+    return static_cast<int>(one.samples[static_cast<std::size_t>(3 * (y * one.size.width + x))]);
+  };
+  for (const int column : {0, 1, 2, 3}) {
+    std::set<int> levels;
+    for (int y = 150; y < 390; ++y) levels.insert(pixel(60 + 296 * column + 128, y));
+    EXPECT_GT(levels.size(), 2u) << "column " << column;
+  }
+  EXPECT_GT(sheet(stack + set).size.height, one.size.height);
+}
+
+TEST(SheetSpectrum, InTimeIsThePowerOfRowsOverTheSlices) {
+  // Along x white, in time a wave of two frames: all power is at half a cycle a frame.
+  Grid<std::int32_t> volume(Shape{16, 8, 4});
+  for (int z = 0; z < 4; ++z) {
+    for (std::size_t i = 0; i < 128; ++i) {
+      const auto level = static_cast<std::int32_t>(random_bits(1, 0, i) & 255u);
+      volume[static_cast<std::size_t>(z) * 128 + i] = z % 2 == 0 ? level : 255 - level;
+    }
+  }
+  const Grid<std::uint8_t> power = sheet_spectrum_in_time(volume);
+  ASSERT_EQ(power.size(), (Extent{16, 4}));
+  for (int x = 0; x < 16; ++x) {
+    EXPECT_EQ(power(x, 1), 0) << "a quarter of a cycle";
+    EXPECT_EQ(power(x, 3), 0);
+    EXPECT_GT(power(x, 0), 150) << "half a cycle";
+  }
+  EXPECT_EQ(row_in_time(volume, 3)(5, 2), volume[2 * 128 + 3 * 16 + 5]);
 }
 
 TEST(SheetSpectrum, IsThePowerInDecibels) {

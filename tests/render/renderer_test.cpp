@@ -227,6 +227,8 @@ TEST(Scenes, MistakesAreNamedWithTheirLine) {
   expect("nmae = 'x'", "scene.toml:1: unknown key 'nmae'");
   expect("name = ", "scene.toml:1");
   expect(camera, "0 primitives");
+  expect(camera, "scene.toml, scene x");
+  expect("about = '" + std::string(501, 'a') + "'\n" + camera, "501 bytes");
   expect(camera + material + "[[sphere]]\ncentre = [0, nan, 0]\nradius = 1\nmaterial = 'm'", "scene.toml:8");
   expect(camera + material + "[[sphere]]\ncentre = [0, 0, 0]\nradius = 1\nmaterial = 'n'", "no material 'n'");
   expect(camera + material + "[[sphere]]\ncentre = [0, 0, 0]\nradius = -1\nmaterial = 'm'", "radius");

@@ -13,7 +13,7 @@ namespace {
 /// frames of a known width: a window of 400 pixels is less than some systems give. "faint" counts the texts
 /// and curves of plots that stand out from the page by less than they should: a contrast of 4.5
 /// (WCAG 2.2, 1.4.3) for texts, of 3 (1.4.11) for the curves of textures. "uneven" counts pictures whose
-/// pixels are no whole number of the page's.
+/// pixels are no whole number of the page's, though they are shown unsmoothed.
 constexpr const char* kProbe =
     R"html(<!DOCTYPE html><html><head><meta charset="utf-8"><meta name="color-scheme"
 content="light dark"></head><body><script>
@@ -42,7 +42,7 @@ for (const width of [1280, 400]) {
         e => /--plot-[3-8]\b/.test(e.getAttribute("stroke")));
     const faint = texts.filter(e => contrast(style(e).fill, paper) < 4.5).length +
         curves.filter(e => contrast(style(e).stroke, paper) < 3).length;
-    const uneven = images.filter(i => !i.closest(".cut, .narrow-cut") && i.getBoundingClientRect().width % i.naturalWidth != 0).length;
+    const uneven = images.filter(i => !i.closest(".cut, .narrow-cut") && getComputedStyle(i).imageRendering == "pixelated" && i.getBoundingClientRect().width % i.naturalWidth != 0).length;
     found.push("[" + width + " window " + frame.contentWindow.innerWidth + " overflow " +
         (d.documentElement.scrollWidth - d.documentElement.clientWidth) + " images " + images.length + " broken " +
         images.filter(i => !i.complete || i.naturalWidth == 0).length + " charts " + charts.length + " empty " +
@@ -136,11 +136,19 @@ TEST_F(Browser, ShowsVolumesAndLargePictures) {
   write_volume(folder / "textures");
   ASSERT_EQ(write_report({.inputs = {folder / "textures"}, .out = folder / "r.html", .volume = true}).volumes,
             1);
-  // Four pictures, tiling, thresholds, slices, the mean of 1, 4 and 16 frames.
-  expect_page(4 + 1 + 30 + 8 + 3, 5);
+  // Four pictures, tiling, thresholds, slices, the mean of 1, 4 and 16 frames. Plots: as a texture has, in
+  // time, by slice.
+  expect_page(4 + 1 + 30 + 8 + 3, 6);
   write_mask(folder / "large.png", 400, 1);
   write_report({.inputs = {folder / "large.png"}, .out = folder / "r.html"});
   expect_page(5 + 30, 4);
+}
+
+TEST_F(Browser, ShowsAStudy) {
+  write_study(folder.path());
+  write_study_report(folder.path(), folder / "r.html");
+  // The frame with and without; four methods of three pictures each.
+  expect_page(2 + 12, 2);
 }
 
 }  // namespace

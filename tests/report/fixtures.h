@@ -83,4 +83,39 @@ inline void write_volume(const std::filesystem::path& folder) {
   }
 }
 
+inline void write_blank(const std::filesystem::path& path, Extent size) {
+  Image picture{.size = size, .channels = 3, .type = SampleType::u8, .samples = {}};
+  picture.samples.resize(static_cast<std::size_t>(size.area()) * 3);
+  write_image(path, picture, {});
+}
+
+/// A validation study of one scene, "room", by four methods, as bn validate leaves it.
+inline void write_study(const std::filesystem::path& folder) {
+  const auto write = [&](const char* name, const char* text) { write_text_file(folder / name, text); };
+  std::filesystem::create_directories(folder / "room");
+  write("study.json",
+        R"({"size":[4,2],"bounces":2,"frames":1,"first_counted":1,"block":8,"reference_paths":64,
+              "device":"a <device>","scenes":[{"name":"room","about":"A room & a lamp.","moves":false,
+              "reference_rmse":0.01}]})");
+  write("summary.csv",
+        "scene,variant,region,db_against_white\nroom,white,picture,0.00\nroom,sort,picture,-3.25\n"
+        "room,retarget,picture,-9.00\nroom,reproject,picture,-9.00\n");
+  write("errors.csv",
+        "scene,variant,frame,region,rmse,rmse_blur_1.5,power_to_0.1,reference_power_to_0.1,flicker,"
+        "rmse_exponential_average\n"
+        "room,white,0,picture,0.5,0.125,0.25,0.001,,0.4\nroom,white,1,picture,0.5,0.125,0.25,0.001,0.06,0.4\n"
+        "room,sort,0,picture,0.5,0.1,0.25,0.001,,0.4\nroom,sort,1,picture,0.5,0.1,0.1,0.001,0.05,0.3\n"
+        "room,retarget,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3\n"
+        "room,reproject,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3\n");
+  write("radial.csv",
+        "scene,variant,frame,region,frequency,power\nroom,sort,1,picture,0.1,0.1\nroom,sort,1,picture,0.2,"
+        "0.3\n");
+  write("passes.csv",
+        "scene,variant,pass,milliseconds,percent_of_frame,bytes\nroom,reproject,trace,12.5,80,2048\n");
+  // Four methods, three rows, pictures of 64 pixels.
+  write_blank(folder / "room" / "methods.png", {4 * 132 + 4, 3 * 132 + 4});
+  write_blank(folder / "room" / "white.png", {4, 2});
+  write_blank(folder / "room" / "retarget.png", {4, 2});
+}
+
 }  // namespace bn::report

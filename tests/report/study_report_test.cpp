@@ -8,30 +8,19 @@
 #include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
+#include "report/fixtures.h"
 
-namespace bn {
+namespace bn::report {
 namespace {
 
 class StudyReport : public testing::Test {
  protected:
   StudyReport() : folder_(std::filesystem::path(testing::TempDir()) / "bn_study_report") {
     std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_ / "room");
-    write("summary.csv",
-          "scene,variant,region,db_against_white\nroom,white,picture,0.00\nroom,sort,picture,-3.25\n");
-    write("errors.csv",
-          "scene,variant,frame,region,rmse,power_to_0.1,reference_power_to_0.1\n"
-          "room,white,0,picture,0.5,0.25,0.001\nroom,white,1,picture,0.5,0.25,0.001\n"
-          "room,sort,0,picture,0.5,0.25,0.001\nroom,sort,1,picture,0.5,0.1,0.001\n");
-    write("radial.csv",
-          "scene,variant,frame,region,frequency,power\nroom,sort,1,picture,0.1,0.1\nroom,sort,1,picture,0.2,"
-          "0.3\n");
-    write("passes.csv",
-          "scene,variant,pass,milliseconds,percent_of_frame,bytes\nroom,reproject,trace,12.5,80,2048\n");
-    Image sheet{.size = {4, 2}, .channels = 3, .type = SampleType::u8, .samples = {}};
-    sheet.samples.resize(24);
-    write_image(folder_ / "room" / "methods.png", sheet, {});
+    write_study(folder_);
   }
+
+  void write_picture(const std::string& name, Extent size) { write_blank(folder_ / "room" / name, size); }
 
   void write(const std::string& name, const std::string& text) { std::ofstream(folder_ / name) << text; }
 
@@ -57,11 +46,43 @@ class StudyReport : public testing::Test {
 
 TEST_F(StudyReport, ShowsScenesFiguresPicturesAndCosts) {
   const std::string html = page();
-  for (const char* part : {"<h2>room</h2>", ">-3.2<", "<title>Validation</title>", "data:image/png;base64,",
-                           "12.50 ms", "80.0 %", "2 KiB", "white, sort"})
+  for (const char* part :
+       {"<h2>room</h2>", "<title>Validation</title>", "12.50 ms", "80.0 %", "2 KiB", "A room &amp; a lamp.",
+        "a &lt;device&gt;", "64 paths a pixel", ">0.125<", ">0.06<"})
     EXPECT_NE(html.find(part), std::string::npos) << part;
   EXPECT_EQ(html.find("http://"), std::string::npos) << "the page loads nothing";
   EXPECT_EQ(html, page()) << "equal files, equal bytes";
+}
+
+TEST_F(StudyReport, NamesTheBestAndExplainsEqualRows) {
+  const std::string html = page();
+  for (const char* part :
+       {"Best in the whole picture: retarget, \u22129.0 dB",
+        "Within the scatter of about 1 dB of it: reproject.", "<b class=\"best\">\u22129.0</b>",
+        "The rows of retarget and reproject are the same.", "Nothing moves here",
+        "retarget with the tile for the picture&#39;s motion"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  EXPECT_EQ(html.find("<b class=\"best\">0.5</b>"), std::string::npos) << "all RMSE are equal";
+}
+
+TEST_F(StudyReport, AGainWithinTheScatterIsNone) {
+  write("summary.csv",
+        "scene,variant,region,db_against_white\nroom,white,picture,0.00\nroom,sort,picture,-0.90\n");
+  const std::string html = page();
+  EXPECT_NE(html.find("no method leaves less"), std::string::npos);
+  EXPECT_EQ(html.find("With sort:"), std::string::npos);
+}
+
+TEST_F(StudyReport, EachPictureStandsBesideItsMethod) {
+  const std::string html = page();
+  for (const char* part : {"<figcaption>sort</figcaption>", "last frame, sort: spectrum of the error",
+                           "Without:</b> white noise", "With retarget:</b>"})
+    EXPECT_NE(html.find(part), std::string::npos) << part;
+  // A sheet of another division is named, not shown askew.
+  write_picture("methods.png", {500, 340});
+  const std::string other = page();
+  EXPECT_EQ(other.find("<figcaption>sort</figcaption>"), std::string::npos);
+  EXPECT_NE(other.find("not a sheet of 4 columns and 3 rows"), std::string::npos);
 }
 
 TEST_F(StudyReport, RefusesWhatIsNoStudy) {
@@ -73,9 +94,16 @@ TEST_F(StudyReport, RefusesWhatIsNoStudy) {
   EXPECT_EQ(refusal(), ErrorCode::invalid_input) << "no number";
   write("summary.csv", "scene,variant,region,db_against_white\n../room,white,picture,0\n");
   EXPECT_EQ(refusal(), ErrorCode::invalid_input) << "a path for a name";
+  write("summary.csv", "scene,variant,region,db_against_white\nhall,white,picture,0\n");
+  EXPECT_EQ(refusal(), ErrorCode::invalid_input) << "a scene that study.json lacks";
+  write("summary.csv", "scene,variant,region,db_against_white\nroom,a/b,picture,0\n");
+  EXPECT_EQ(refusal(), ErrorCode::invalid_input) << "a path for a method";
   std::filesystem::remove(folder_ / "summary.csv");
   EXPECT_EQ(refusal(), ErrorCode::io);
+  write("study.json", "{}");
+  write("summary.csv", "scene,variant,region,db_against_white\n");
+  EXPECT_EQ(refusal(), ErrorCode::invalid_input) << "no study.json that says anything";
 }
 
 }  // namespace
-}  // namespace bn
+}  // namespace bn::report

@@ -259,7 +259,8 @@ TEST(Anneal, TraceIsReadWhileItGrows) {
   EXPECT_EQ(trace[trace.size() - 1].best_energy, result.tile.energy);
   const std::string csv = trace.csv(7);
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), trace.size() + 1);
-  EXPECT_EQ(csv.rfind("step,seconds,temperature,energy,best,lower_bound,accepted,worse_1_tried", 0), 0u);
+  EXPECT_EQ(csv.rfind("proposals,seconds,temperature,energy,best,lower_bound,accepted,worse_1_tried", 0), 0u);
+  EXPECT_EQ(csv.find("worse_8388608_tried"), std::string::npos) << "nobody tried so much";
 
   // Sweeps were watched, few of them, and they are what they would have been.
   int watched = 0;

@@ -77,5 +77,42 @@ TEST(AnnealStudy, CsvReadsBackAndNothingElse) {
   }
 }
 
+/// Two schedules, two budgets, three seeds, one radius; a second radius without a solution.
+AnnealStudy made_up_study() {
+  AnnealStudy study;
+  study.exact = {{.radius = 6, .cpu_seconds = 0.5, .start_energy = 1000, .energy = 100}};
+  for (const std::int64_t energy : {130, 110, 120}) {
+    study.runs.push_back({"exponential", 6, 1'000'000, 1, 0.25, energy});
+    study.runs.push_back({"exponential", 6, 3'162'278, 1, 0.75, energy - 9});
+    study.runs.push_back({"linear", 6, 1'000'000, 1, 0.25, energy + 50});
+    study.runs.push_back({"linear", 8, 1'000'000, 1, 0.25, 1});
+  }
+  return study;
+}
+
+TEST(AnnealStudy, TablesNameTheirSchedules) {
+  const AnnealStudy study = made_up_study();
+  const auto summaries = summarise(study, {"exponential", "linear"});
+  ASSERT_EQ(summaries.size(), 3u) << "a radius without an optimum is left out";
+  EXPECT_EQ(summaries[0].median, 120.0);
+  EXPECT_EQ(summaries[0].excess_high, 30.0);
+  const std::string results = results_md(study, summaries);
+  EXPECT_NE(results.find("| bn, exponential, 1e6 proposals | 120 | 12.000 % | 20.0 % | 0.25 s |"),
+            std::string::npos)
+      << results;
+  EXPECT_NE(results.find("| bn, exponential, 3.16e6 proposals |"), std::string::npos) << results;
+  EXPECT_EQ(results.find("linear"), std::string::npos) << results;
+  EXPECT_EQ(results.find("published"), std::string::npos) << "of another instance";
+  EXPECT_NE(results_md(study, summarise(study, {"linear"})).find("| bn, linear, 1e6 proposals | 170 |"),
+            std::string::npos);
+  // The largest budget first, of each the best schedule first.
+  const std::string medians = medians_md(summaries);
+  const auto last = medians.find("| 6 | 3.16e6 | exponential | 1.0 % | 11.0 % | 21.0 % | 0.75 s |");
+  const auto best = medians.find("| 6 | 1e6 | exponential |"), worse = medians.find("| 6 | 1e6 | linear |");
+  EXPECT_LT(last, best);
+  EXPECT_LT(best, worse);
+  EXPECT_LT(worse, medians.size());
+}
+
 }  // namespace
 }  // namespace bn

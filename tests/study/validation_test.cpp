@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bn/error.h"
+#include "bn/report.h"
 #include "render/scratch.h"
 #include "render/test_textures.h"
 #include "study/validation.h"
@@ -56,9 +57,18 @@ TEST(Study, WritesItsFilesWholeAndTheSameEachTime) {
     options.variations = true;
     run_study(options, test::proven_textures(), nullptr, folder, {.threads = 1});
     std::ifstream file(folder / "errors.csv");
-    for (const char* name : {"first-frames.png", "methods.png", "blocks.png", "retarget.png"})
+    for (const char* name :
+         {"first-frames.png", "methods.png", "blocks.png", "retarget.png", "retarget-block-4.png"})
       EXPECT_TRUE(std::filesystem::exists(folder / "poster" / name)) << name;
     EXPECT_TRUE(std::filesystem::exists(folder / "report.md"));
+    // The page cuts the sheets as they were put together.
+    write_study_report(folder, folder / "report.html");
+    std::ifstream page_file(folder / "report.html");
+    const std::string page(std::istreambuf_iterator<char>(page_file), {});
+    EXPECT_EQ(page.find("not a sheet"), std::string::npos);
+    EXPECT_NE(page.find("last frame, retarget-by-light: error"), std::string::npos);
+    EXPECT_NE(page.find("retarget, 16 × 16: spectrum"), std::string::npos) << "blocks";
+    EXPECT_NE(page.find("retarget, frame 3: error"), std::string::npos) << "first frames";
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   const std::string once = run("study_1");

@@ -71,7 +71,7 @@ TEST_F(AnnealVerb, MakesATileThatVerifies) {
   EXPECT_GE(json.at("energy"), json.at("lower_bound"));
   EXPECT_EQ(json.at("recomputed_energy"), json.at("energy"));
   EXPECT_EQ(run({"verify", "tile.png"}).exit_code, 0);
-  EXPECT_EQ(read_bytes(scratch_ / "trace.csv").rfind("step,seconds,temperature", 0), 0u);
+  EXPECT_EQ(read_bytes(scratch_ / "trace.csv").rfind("proposals,seconds,temperature", 0), 0u);
 }
 
 TEST_F(AnnealVerb, AMotionSetVerifies) {
@@ -274,6 +274,35 @@ TEST_F(AnnealVerb, TheStudyMakesItsFigures) {
   other[4] = "1,3";
   EXPECT_EQ(run(other).exit_code, 3);
   EXPECT_EQ(read_bytes(scratch_ / "study/runs.csv"), runs);
+}
+
+TEST_F(AnnealVerb, TheStudyTakesSchedulesAndBudgets) {
+  write_image(scratch_ / "small.png", simple_mask(8), {});
+  const std::vector<std::string> words{"study",   "anneal", "small.png", "--step", "3,1",
+                                       "--radii", "2",      "--seeds",   "2",      "-o",
+                                       "study",   "--part", "runs",      "--json"};
+  const auto with = [&](std::initializer_list<std::string> more) {
+    auto all = words;
+    all.insert(all.end(), more);
+    return run(all);
+  };
+  const auto result = with({"--schedules", "inverse,linear", "--budgets", "1e3,2e3"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto json = nlohmann::json::parse(result.out);
+  ASSERT_EQ(json.at("medians").size(), 4u);
+  EXPECT_EQ(json.at("medians")[0].at("schedule"), "linear");
+  EXPECT_EQ(json.at("medians")[1].at("proposals"), 2000);
+  EXPECT_EQ(json.at("exact").size(), 1u);
+  EXPECT_NE(read_bytes(scratch_ / "study/medians.md").find("| 2e3 | inverse |"), std::string::npos);
+  // Runs of other schedules stay in the file; a lone small number is a count of budgets.
+  ASSERT_EQ(with({"--schedules", "greedy", "--budgets", "1"}).exit_code, 0);
+  const std::string runs = read_bytes(scratch_ / "study/runs.csv");
+  EXPECT_NE(runs.find("linear,2,1000,1,"), std::string::npos) << runs;
+  EXPECT_NE(runs.find("greedy,2,1000000,2,"), std::string::npos) << runs;
+  for (const auto& [option, value] :
+       {std::pair("--schedules", "expnential"), std::pair("--budgets", "1e7,1e6"),
+        std::pair("--budgets", "12"), std::pair("--budgets", "1e3.5")})
+    EXPECT_EQ(with({option, value}).exit_code, 1) << option << " " << value;
 }
 
 }  // namespace

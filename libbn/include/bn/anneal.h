@@ -184,8 +184,8 @@ class AnnealTrace {
   /// For the annealing. Points beyond the capacity are dropped.
   void add(const TracePoint& point);
 
-  /// A header line and one line a point: step, seconds, temperature, energy, best, lower_bound, accepted, and
-  /// worse_<2^i>_tried, worse_<2^i>_accepted for each class.
+  /// A header line and one line a point: proposals, seconds, temperature, energy, best, lower_bound, accepted,
+  /// and worse_<2^i>_tried, worse_<2^i>_accepted for each class up to the largest that was tried.
   std::string csv(std::int64_t lower_bound = 0) const;
 
  private:

@@ -169,6 +169,7 @@ struct Region {
 
 struct Scene {
   std::string name;
+  std::string about = {};  ///< a sentence or two on what is to be seen, for the page of a study
   Rgb sky;
   double fov_degrees = 45.0;      ///< vertical, 1..150
   std::vector<CameraKey> camera;  ///< at least one, frames rising; straight lines between keys

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "bn/execution.h"
@@ -99,6 +100,7 @@ enum class SpatiotemporalPreset {
   filtered,  ///< made for the spatial and the temporal filter: the least error after both
   both,      ///< nearly as good after the filters, and each pixel's series is blue
 };
+std::string_view name_of(SpatiotemporalPreset preset);  ///< "stbn", "filtered", "both"
 
 /// What blurs a frame. Its width is, for gauss, the standard deviation in pixels, 0.3..11; for box the side
 /// in pixels, 1..64; for binomial the order, 1..64 ([1 2 1] is of order 2).

@@ -82,4 +82,33 @@ AnnealCosts study_anneal_costs(const AnnealProblem& problem,
                                const std::function<void(std::string_view)>& save,
                                const Execution& execution = {});
 
+// --- tables of a study ---------------------------------------------------------------------------
+
+/// One schedule at one radius and budget, over the seeds.
+struct AnnealStudySummary {
+  std::string schedule;
+  int radius = 0;
+  std::int64_t proposals = 0;
+  double seconds = 0.0;                        ///< median
+  double low = 0.0, median = 0.0, high = 0.0;  ///< energies
+  /// In percent of the proven optimum, above it.
+  double excess_low = 0.0, excess_median = 0.0, excess_high = 0.0;
+};
+/// By radius, then by schedule as they stand in `schedules`, then by budget. Runs of other schedules or of
+/// radii without an exact solution are left out.
+std::vector<AnnealStudySummary> summarise(const AnnealStudy& study,
+                                          const std::vector<std::string>& schedules);
+
+/// schedule,radius,proposals,seconds,excess_low,excess_median,excess_high
+std::string medians_csv(const std::vector<AnnealStudySummary>& summaries);
+/// The same for people: the largest budget first, of each the best schedule first. Markdown.
+std::string medians_md(const std::vector<AnnealStudySummary>& summaries);
+/// Published figures where they are of this instance, one schedule (the default one, or the first of those
+/// chosen) by budgets, of many the whole decades, the proven optimum; of the first radius. Markdown.
+std::string results_md(const AnnealStudy& study, const std::vector<AnnealStudySummary>& summaries);
+
+/// The accepted share of worsening swaps over a grid of proposals and classes, each the mean over a stretch
+/// of the run; NaN where too few were tried to say.
+std::string surface_csv(const AnnealTrace& trace, std::int64_t proposals);
+
 }  // namespace bn
