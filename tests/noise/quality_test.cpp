@@ -80,6 +80,48 @@ TEST(Quality, BandPowerAtSigma19) { expect_blue(1.9, 0.0, {0.00005, 0.0004, 0.00
 TEST(Quality, BandPowerAtSigma15) { expect_blue(1.5, 0.0, {0.00008, 0.0006, 0.0035, 0.025}); }
 TEST(Quality, BandPowerWithInitialPattern) { expect_blue(1.9, 0.1, {0.00005, 0.0004, 0.004, 0.065}); }
 
+/// Mean power at 0 < f <= 1/32 of the pattern of the ranks first..end-1, against white noise of that density.
+double low_power(const Grid<std::uint32_t>& ranks, std::uint32_t first, std::uint32_t end) {
+  double sum = 0.0;
+  int entries = 0;
+  for (int v = -kSide / 32; v <= kSide / 32; ++v) {
+    for (int u = -kSide / 32; u <= kSide / 32; ++u) {
+      if ((u == 0 && v == 0) || 32 * 32 * (u * u + v * v) > kSide * kSide) continue;
+      std::complex<double> value = 0.0;
+      for (int y = 0; y < kSide; ++y) {
+        for (int x = 0; x < kSide; ++x) {
+          if (ranks(x, y) >= first && ranks(x, y) < end)
+            value += std::polar(1.0, -2.0 * std::numbers::pi * (u * x + v * y) / kSide);
+        }
+      }
+      sum += std::norm(value);
+      ++entries;
+    }
+  }
+  const double share = (end - first) / static_cast<double>(ranks.count());
+  return sum / entries / (static_cast<double>(ranks.count()) * share * (1.0 - share));
+}
+
+TEST(Quality, SparsePatternsAreSpreadEvenly) {
+  constexpr std::uint32_t kCount = kSide * kSide;
+  constexpr std::uint32_t kLevel = kCount / 256;
+  for (const double sigma : {1.9, 1.5}) {
+    double first = 0.0, second = 0.0, last_but_one = 0.0, last = 0.0;
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+      const Grid<std::uint32_t> ranks =
+          void_and_cluster({.size = {kSide, kSide}, .sigma_px = sigma, .seed = seed});
+      first += low_power(ranks, 0, kLevel) / 8.0;
+      second += low_power(ranks, 0, 2 * kLevel) / 8.0;
+      last_but_one += low_power(ranks, kCount - 2 * kLevel, kCount) / 8.0;
+      last += low_power(ranks, kCount - kLevel, kCount) / 8.0;
+    }
+    EXPECT_LE(first, sigma == 1.9 ? 0.03 : 0.06) << "sigma " << sigma;
+    EXPECT_LE(second, sigma == 1.9 ? 0.03 : 0.06) << "sigma " << sigma;
+    EXPECT_LE(last_but_one, 0.08) << "sigma " << sigma;
+    EXPECT_LE(last, 0.10) << "sigma " << sigma;
+  }
+}
+
 TEST(Quality, EightBitHistogramIsFlat) {
   const Grid<std::uint32_t> ranks = void_and_cluster({.size = {64, 32}});
   std::array<int, 256> histogram{};

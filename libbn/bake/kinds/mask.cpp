@@ -1,10 +1,6 @@
 // [[mask]]: blue-noise masks by void-and-cluster, one to four of them in the channels of one picture.
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstring>
-
+#include "bake/kinds/alike.h"
 #include "bake/kinds/all.h"
 #include "bake/paths.h"
 #include "bn/kinds.h"
@@ -73,16 +69,7 @@ void MaskEntry::default_output(std::size_t output) {
 }
 
 Options MaskEntry::output_options(std::size_t output) {
-  Options options;
-  options
-      .choice<SampleType>("type", outputs.at(output).type,
-                          {{"8bit", SampleType::u8},
-                           {"16bit", SampleType::u16},
-                           {"half", SampleType::f16},
-                           {"float", SampleType::f32}},
-                          "What the samples of the file are.")
-      .if_unset("float for .exr, else 8bit");
-  return options;
+  return baking::mask_output_options(outputs.at(output).type);
 }
 
 Cost MaskEntry::cost(const std::vector<Shape>&, const Execution&) const {

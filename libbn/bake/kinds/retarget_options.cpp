@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "bake/kinds/alike.h"
 #include "bake/kinds/retarget_source.h"
 #include "bake/paths.h"
 #include "bn/error.h"
@@ -19,11 +20,6 @@ namespace {
 constexpr int kMaxStep = 1 << 24;  // far above any tile's side; keeps every product within 64 bits
 constexpr std::int64_t kMany = std::numeric_limits<std::int64_t>::max();
 constexpr double kAny = std::numeric_limits<double>::infinity();
-
-const std::vector<std::pair<std::string, SampleType>> kSampleTypes = {{"8bit", SampleType::u8},
-                                                                      {"16bit", SampleType::u16},
-                                                                      {"half", SampleType::f16},
-                                                                      {"float", SampleType::f32}};
 
 /// The options that only annealing has. `when` says whether the entry anneals.
 void declare_annealing(Options& options, RetargetEntry& entry) {
@@ -151,7 +147,7 @@ Options RetargetEntry::options() {
       .only_if([this] { return !mask.empty(); }, "mask = \"name\"");
   options
       .choice<SampleType>(
-          "levels", levels, kSampleTypes,
+          "levels", levels, sample_types(),
           "The samples of the mask that the renderer reads; the mask must have an output of them.")
       .only_in_recipes()
       .only_if([this] { return image.empty(); }, "mask = \"name\"");
@@ -232,8 +228,7 @@ void RetargetEntry::check(const Complain& complain) const {
   try {
     check_anneal_options(run);
   } catch (const Error& error) {
-    const ErrorInfo& info = error.info();
-    complain(info.where, "is refused: " + info.what, info.limit, info.remedy);
+    complain_of(error.info(), complain);
   }
 }
 

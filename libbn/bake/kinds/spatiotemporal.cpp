@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "bake/kinds/alike.h"
 #include "bake/kinds/all.h"
 #include "bake/paths.h"
 #include "bn/error.h"
@@ -105,8 +106,7 @@ void SpatiotemporalEntry::check(const Complain& complain) const {
   try {
     spatiotemporal_kernel(mask);
   } catch (const Error& error) {
-    const ErrorInfo& info = error.info();
-    complain(info.where, "is refused: " + info.what, info.limit, info.remedy);
+    complain_of(error.info(), complain);
   }
 }
 
@@ -115,16 +115,7 @@ void SpatiotemporalEntry::default_output(std::size_t output) {
 }
 
 Options SpatiotemporalEntry::output_options(std::size_t output) {
-  Options options;
-  options
-      .choice<SampleType>("type", outputs.at(output).type,
-                          {{"8bit", SampleType::u8},
-                           {"16bit", SampleType::u16},
-                           {"half", SampleType::f16},
-                           {"float", SampleType::f32}},
-                          "What the samples of the file are.")
-      .if_unset("float for .exr, else 8bit");
-  return options;
+  return mask_output_options(outputs.at(output).type);
 }
 
 Cost SpatiotemporalEntry::cost(const std::vector<Shape>&, const Execution&) const {
