@@ -179,7 +179,7 @@ void BakeView::draw(App& app) {
     // In a narrow window the picture comes first; in a wide one there is room for it below the jobs.
     if (!wide) draw_sheet(em(10));
     draw_jobs(app);
-    if (wide) draw_sheet(std::max(em(16), ImGui::GetContentRegionAvail().y - em(2)));
+    if (wide) draw_sheet(std::max(em(16), ImGui::GetContentRegionAvail().y - em(3)));
   }
   if (!planned_) note(planning_.running() ? "Planning …" : "There is no plan.");
   end_panel();
@@ -230,7 +230,7 @@ void BakeView::draw_jobs(App& app) {
   heading("Jobs");
   const BakePlan& plan = planned_->plan;
   // Where there is no room for all columns, time and energy stand below the job's name.
-  const bool narrow = ImGui::GetContentRegionAvail().x < em(38);
+  const bool narrow = ImGui::GetWindowWidth() < em(40);  // whether it scrolls or not
   if (!ImGui::BeginTable("jobs", narrow ? 3 : 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
     return;
   ImGui::TableSetupColumn("State", 0, narrow ? 1.1f : 0.9f);
