@@ -24,9 +24,8 @@ std::string seconds_text(double seconds) {
 
 /// An estimate, with no more digits than it deserves.
 std::string about_text(double seconds) {
-  return seconds < 0.1    ? "< 0.1 s"
-         : seconds < 10.0 ? fmt::format("{:.1f} s", seconds)
-                          : seconds_text(seconds);
+  if (seconds < 0.1) return "< 0.1 s";
+  return "~ " + (seconds < 10.0 ? fmt::format("{:.1f} s", seconds) : seconds_text(seconds));
 }
 
 std::string energy_text(const std::vector<TileRecord>& tiles) {
@@ -142,7 +141,7 @@ void BakeView::read_sheet() {
   });
 }
 
-void BakeView::draw_sheet() {
+void BakeView::draw_sheet(float height) {
   try {
     if (auto sheet = reading_.poll()) sheet_.set(std::move(*sheet));
   } catch (const Error&) {
@@ -152,8 +151,7 @@ void BakeView::draw_sheet() {
   heading("Contact sheet");
   if (sheet_.empty())
     return note(reading_.running() ? "Reading …" : "It stands here once the recipe is baked.");
-  const ImVec2 room = ImGui::GetContentRegionAvail();
-  sheet_.draw("Contact sheet", sheet_link_, {room.x, std::max(em(16), room.y)});
+  sheet_.draw("Contact sheet", sheet_link_, {ImGui::GetContentRegionAvail().x, height});
 }
 
 void BakeView::draw(App& app) {
@@ -177,8 +175,12 @@ void BakeView::draw(App& app) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const bool wide = room.x > em(48);
   begin_panel("jobs", wide ? ImVec2(room.x * 0.62f, 0) : ImVec2(0, room.y * 0.6f));
-  if (planned_) draw_jobs(app);
-  if (planned_) draw_sheet();
+  if (planned_) {
+    // In a narrow window the picture comes first; in a wide one there is room for it below the jobs.
+    if (!wide) draw_sheet(em(10));
+    draw_jobs(app);
+    if (wide) draw_sheet(std::max(em(16), ImGui::GetContentRegionAvail().y - em(3)));
+  }
   if (!planned_) note(planning_.running() ? "Planning …" : "There is no plan.");
   end_panel();
   if (wide) ImGui::SameLine();
@@ -218,7 +220,7 @@ void BakeView::draw_controls(App& app) {
   value("Jobs", stand > 0 ? fmt::format("{}, of which {} are up to date", plan.jobs.size(), stand)
                           : fmt::format("{}", plan.jobs.size()));
   const bool nothing = stand == static_cast<std::ptrdiff_t>(plan.jobs.size());
-  value("Time", nothing ? "nothing to make" : "about " + about_text(plan.estimated_seconds),
+  value("Time", nothing ? "nothing to make" : about_text(plan.estimated_seconds),
         "Of what is to be made, on one core");
   value("Memory",
         fmt::format("about {:.0f} MiB", static_cast<double>(plan.memory_bytes) / (1024.0 * 1024.0)));
@@ -228,7 +230,7 @@ void BakeView::draw_jobs(App& app) {
   heading("Jobs");
   const BakePlan& plan = planned_->plan;
   // Where there is no room for all columns, time and energy stand below the job's name.
-  const bool narrow = ImGui::GetContentRegionAvail().x < em(38);
+  const bool narrow = ImGui::GetWindowWidth() < em(40);  // whether it scrolls or not
   if (!ImGui::BeginTable("jobs", narrow ? 3 : 5, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
     return;
   ImGui::TableSetupColumn("State", 0, narrow ? 1.1f : 0.9f);
@@ -267,7 +269,7 @@ void BakeView::draw_job(App& app, int index, bool narrow) {
   note(job.kind);
   if (!narrow) ImGui::TableNextColumn();
   ImGui::TextUnformatted(record && !record->skipped ? seconds_text(record->seconds).c_str()
-                                                    : ("~ " + about_text(job.estimated_seconds)).c_str());
+                                                    : about_text(job.estimated_seconds).c_str());
   if (!narrow) ImGui::TableNextColumn();
   if (record) ImGui::TextWrapped("%s", energy_text(record->tiles).c_str());
   ImGui::TableNextColumn();

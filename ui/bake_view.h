@@ -43,7 +43,7 @@ class BakeView {
   void draw_job(App& app, int index, bool narrow);
   void draw_recipe();
   void read_sheet();
-  void draw_sheet();
+  void draw_sheet(float height);
 
   // What the user has set.
   std::filesystem::path recipe_path_;

@@ -137,7 +137,8 @@ void CompareView::draw(App& app) {
   const ImVec2 room = ImGui::GetContentRegionAvail();
   const float rows = static_cast<float>(std::min<std::size_t>(kept_.size(), 6)) + 1.0f;
   const float table = rows * (ImGui::GetFrameHeight() + 2 * ImGui::GetStyle().CellPadding.y) +
-                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y;
+                      ImGui::GetFrameHeightWithSpacing() + 2 * ImGui::GetStyle().WindowPadding.y +
+                      (room.x < em(76) ? ImGui::GetStyle().ScrollbarSize : 0.0f);
   begin_panel("runs", {0, std::min(table, room.y * 0.45f)});
   draw_table();
   const bool any = std::any_of(kept_.begin(), kept_.end(), [](const Kept& k) { return k.shown; });

@@ -16,6 +16,9 @@ struct Outcome {
   std::string output;  ///< stdout and stderr
 };
 
+/// 0 is success; anything else shows what the program said.
+inline void expect_success(const Outcome& outcome) { EXPECT_EQ(outcome.exit_code, 0) << outcome.output; }
+
 /// An empty folder, the current one of what runs in it; removed at the end.
 class Workplace {
  public:
