@@ -66,6 +66,20 @@ std::string allowed_of(const Option& option) {
   return "";
 }
 
+/// The value that a flag's text means, with lists in the words of a command line where it is refused.
+Value typed_value(const Option& option, std::string_view text, std::string_view flag) {
+  try {
+    return value_from_text(option, text, flag);
+  } catch (const Error& error) {
+    const bool is_list = option.type == OptionType::size || option.type == OptionType::shape ||
+                         option.type == OptionType::offset || option.type == OptionType::integers;
+    if (!is_list) throw;
+    ErrorInfo info = error.info();
+    info.limit = placeholder_of(option) + ", " + allowed_of(option);
+    throw Error(std::move(info));
+  }
+}
+
 /// A condition in the words of recipes, method = "anneal", as a command line has it: --method anneal.
 std::string in_flags(std::string condition) {
   // Several are joined by "and".
@@ -134,7 +148,7 @@ Argument EntryArguments::output_flag_for(const Option& option) {
   Argument argument = argument_of(option);
   if (!option.unset_help.empty()) argument.initial = option.unset_help;
   argument.assign = [this, key = option.key, option, flag = argument.name](std::string_view text) {
-    value_from_text(option, text, flag);  // refused at once; set when the path is known
+    typed_value(option, text, flag);  // refused at once; set when the path is known
     output_texts_.emplace_back(key, text);
   };
   return argument;
@@ -180,7 +194,7 @@ void EntryArguments::declare_some(Arguments& arguments, const std::vector<std::s
 void EntryArguments::assign(const std::string& key, std::string_view text, std::string_view flag) {
   Option& option = *options_.find(key);
   if (option.names_file) check_path_word(text, flag);
-  option.set(value_from_text(option, text, flag));
+  option.set(typed_value(option, text, flag));
   given_.push_back(key);
 }
 
@@ -225,7 +239,7 @@ Entry& EntryArguments::with_output(const std::string& path) {
   Options of_output = entry_->output_options(0);
   for (const auto& [key, text] : output_texts_) {
     Option& option = *of_output.find(key);
-    option.set(value_from_text(option, text, flag_of(option)));
+    option.set(typed_value(option, text, flag_of(option)));
   }
   return *entry_;
 }

@@ -14,13 +14,13 @@
 namespace bn::tools {
 namespace {
 
-/// What the channels mean and what is worth knowing, a line each.
+/// What the channels mean and what is worth knowing, each in a paragraph.
 std::string sentences(const Json& result) {
   std::string text;
   for (const char* list : {"content", "notes"}) {
     if (!result.contains(list)) continue;
     text += fmt::format("\n{}\n", list);
-    for (const Json& sentence : result[list]) text += sentence.get<std::string>() + "\n";
+    for (const Json& sentence : result[list]) text += paragraph(sentence.get<std::string>(), 0);
   }
   return text;
 }

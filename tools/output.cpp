@@ -115,6 +115,21 @@ void Output::write_result(const Json& result, bool as_json) {
   write(text + "\n");
 }
 
+std::string paragraph(std::string_view text, std::size_t indent) {
+  std::string result;
+  while (!text.empty()) {
+    std::size_t end = text.size();
+    if (indent + end > kTextColumns) {
+      end = text.rfind(' ', kTextColumns - indent);
+      if (end == std::string_view::npos || end == 0) end = std::min(text.find(' ', 1), text.size());
+    }
+    result += std::string(indent, ' ') + std::string(text.substr(0, end)) + "\n";
+    text.remove_prefix(end);
+    text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+  }
+  return result;
+}
+
 std::string lines_of(const Json& result) {
   Lines lines;
   flatten("", result, lines);

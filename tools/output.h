@@ -29,6 +29,11 @@ class Output {
   bool reader_is_gone_ = false;
 };
 
+/// What text for people is as wide as, but for names of files that are longer.
+inline constexpr std::size_t kTextColumns = 80;
+/// `text` in lines of at most kTextColumns, each behind `indent` spaces. Words are left whole.
+std::string paragraph(std::string_view text, std::size_t indent);
+
 /// Aligned lines "name value", nested names joined by dots: the vocabulary of the JSON.
 std::string lines_of(const nlohmann::ordered_json& result);
 /// The verdict words of `text` as a terminal shows them in colour.

@@ -42,9 +42,13 @@ void run(const Settings& settings, Session& session) {
     return;
   }
   for (const std::string& note : summary.notes) session.progress.note(note);
-  session.output.tell(fmt::format("{}: {} textures, {} retarget sets, {} volumes; {}\n",
-                                  settings.options.out.string(), summary.masks, summary.retarget_sets,
-                                  summary.volumes, verdict_of(summary)));
+  const auto counted = [](int count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+  };
+  session.output.tell(fmt::format("{}: {}, {}, {}; {}\n", settings.options.out.string(),
+                                  counted(summary.masks, "texture"),
+                                  counted(summary.retarget_sets, "retarget set"),
+                                  counted(summary.volumes, "volume"), verdict_of(summary)));
 }
 
 }  // namespace

@@ -94,6 +94,13 @@ void SpectrumAnalyst::finish() {
 
 void SpectrumAnalyst::look_at(const StackedTexture& texture) {
   const auto count = static_cast<int>(texture.channels.size());
+  if (settings_.check == Check::stbn && texture.shape.depth == 1) {
+    throw Error({.code = ErrorCode::invalid_input,
+                 .what = "one picture, and stbn judges the slices of a volume",
+                 .where = texture.name,
+                 .limit = "two slices and more",
+                 .remedy = "name a folder or all slices and add --volume, or use --check blue"});
+  }
   std::vector<Samples> samples;
   for (const ChannelSamples& channel : texture.channels) {
     samples.push_back(

@@ -9,12 +9,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/output.h"
+
 namespace bn::tools {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr std::size_t kColumns = 80;
 
 std::string_view check_name(Check kind) {
   return kind == Check::blue ? "blue" : kind == Check::white ? "white" : "stbn";
@@ -54,30 +54,14 @@ std::string short_name(const SpectrumRow& row, std::size_t width) {
   return name.size() <= width ? name : "..." + name.substr(name.size() - width + 3);
 }
 
-/// `text` in lines of at most kColumns, each after `indent` spaces.
-std::string wrapped(std::string_view text, std::size_t indent) {
-  std::string result;
-  while (!text.empty()) {
-    std::size_t end = std::min(text.size(), kColumns - indent);
-    if (end < text.size()) {
-      const std::size_t space = text.rfind(' ', end);
-      if (space != std::string_view::npos && space > 0) end = space;
-    }
-    result += std::string(indent, ' ') + std::string(text.substr(0, end)) + "\n";
-    text.remove_prefix(end);
-    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
-  }
-  return result;
-}
-
 std::string reasons_of(const Judgement& judgement) {
   std::string text;
-  for (const std::string& reason : judgement.reasons) text += wrapped(reason, 6);
+  for (const std::string& reason : judgement.reasons) text += paragraph(reason, 6);
   if (!judgement.not_judged.empty() && judgement.outcome != Judgement::Outcome::cannot_tell) {
     std::string names;
     for (const std::string& name : judgement.not_judged)
       names += (names.empty() ? "" : "; ") + label_of(name);
-    text += wrapped("too small to judge: " + names, 6);
+    text += paragraph("too small to judge: " + names, 6);
   }
   return text;
 }
@@ -141,7 +125,7 @@ std::string one_texture(const SpectrumRow& row) {
     head += fmt::format(", grade {} of 100", score(row.grade.score));
     if (!row.grade.weakest.empty()) head += fmt::format(" (by {})", label_of(row.grade.weakest));
   }
-  head = wrapped(head, 0);
+  head = paragraph(head, 0);
   if (row.judgement) head += reasons_of(*row.judgement);
   return row.name() + "\n" + head + "\n" + figures_in_full(row);
 }
@@ -168,7 +152,7 @@ std::string table(const std::vector<SpectrumRow>& rows) {
                         row.set_aside.empty() ? score(row.grade.score) : "-",
                         one_size ? "" : size_of(row.figures.shape), size_width, number(bands[0]),
                         number(bands[1]), number(bands[2]), number(bands[3]),
-                        short_name(row, kColumns - head.size()));
+                        short_name(row, kTextColumns - head.size()));
   }
   return text;
 }
@@ -178,7 +162,7 @@ std::string reasons_in_words(const std::vector<SpectrumRow>& rows) {
   std::string text;
   for (const SpectrumRow& row : rows) {
     if (!row.set_aside.empty()) {
-      text += fmt::format("-     {}\n{}", row.name(), wrapped(row.set_aside, 6));
+      text += fmt::format("-     {}\n{}", row.name(), paragraph(row.set_aside, 6));
     } else if (row.judgement && !reasons_of(*row.judgement).empty()) {
       text += fmt::format("{:<5} {}\n{}", verdict_of(row), row.name(), reasons_of(*row.judgement));
     }
@@ -216,19 +200,19 @@ std::string pairs_in_words(const SpectrumResult& result) {
     std::string relations;
     for (const ChannelPair* pair : related) {
       if (pair->file == file)
-        relations += wrapped(fmt::format("channel {} {}", pair->second_label, pair->relation), 6);
+        relations += paragraph(fmt::format("channel {} {}", pair->second_label, pair->relation), 6);
     }
     text += fmt::format("{:<5} {}\n", relations.empty() ? "" : result.check ? "FAIL" : "note", file);
     if (!relations.empty()) {
       text += relations;
     } else if (tellable) {
-      text +=
-          wrapped(fmt::format("the channels are independent: correlation at most {:.3f} at any displacement "
-                              "(chance: {:.3f})",
-                              largest, limit),
-                  6);
+      text += paragraph(
+          fmt::format("the channels are independent: correlation at most {:.3f} at any displacement "
+                      "(chance: {:.3f})",
+                      largest, limit),
+          6);
     } else {
-      text += wrapped("the channels are too small to tell whether they are independent", 6);
+      text += paragraph("the channels are too small to tell whether they are independent", 6);
     }
   }
   return text;
@@ -292,14 +276,14 @@ std::string to_text(const SpectrumResult& result) {
     text += table(result.rows);
     // What explains all channels comes before what each of them reads.
     for (const auto& [file, finding] : result.file_findings)
-      text += fmt::format("FAIL  {}\n{}", file, wrapped(finding, 6));
+      text += fmt::format("FAIL  {}\n{}", file, paragraph(finding, 6));
     text += reasons_in_words(result.rows);
   }
   text += pairs_in_words(result);
   for (const auto& [file, error] : result.faults) {
-    text += fmt::format("ERROR {}\n{}", file, wrapped(error.what, 6));
+    text += fmt::format("ERROR {}\n{}", file, paragraph(error.what, 6));
   }
-  for (const std::string& note : result.notes) text += wrapped("note: " + note, 0);
+  for (const std::string& note : result.notes) text += paragraph("note: " + note, 0);
   return text;
 }
 

@@ -17,6 +17,7 @@ struct Settings {
   ForeignTile foreign;
   EntryArguments retarget{*find_kind("retarget")};  ///< of the tile of another program
   std::optional<Offset> step, motion;
+  std::vector<std::string> foreign_flags;  ///< those of them that were given
   bool json = false;
 };
 
@@ -42,10 +43,10 @@ ValueKind<int> encoding() {
 
 std::vector<VerifyItem> items_of(Settings& settings, Session& session) {
   if (settings.foreign.mask.empty()) {
-    if (settings.step) {
+    if (!settings.foreign_flags.empty()) {
       throw Error({.code = ErrorCode::usage,
                    .what = "does not apply",
-                   .where = "--step",
+                   .where = settings.foreign_flags.front(),
                    .limit = "only with --mask",
                    .remedy = "name the mask of a tile that another program made"});
     }
@@ -136,8 +137,9 @@ void throw_if_failed(const std::vector<VerifyItem>& items, std::int64_t failed, 
                                              : "bake what failed again"});
 }
 
-void declare_foreign(Arguments& arguments, Settings& settings) {
-  constexpr const char* kHeading = "For a retarget tile of another program";
+constexpr const char* kHeading = "For a retarget tile of another program";
+
+void declare_foreign_options(Arguments& arguments, Settings& settings) {
   ForeignTile& tile = settings.foreign;
   const auto group = [&] { arguments.in_group(kHeading); };
   arguments.option("--mask", tile.mask, file_path(),
@@ -155,6 +157,21 @@ void declare_foreign(Arguments& arguments, Settings& settings) {
   arguments.option("--radius", tile.radius, integer_in(0, 32),
                    "What no move may pass; 0: the farthest move that the tile has.");
   group();
+}
+
+/// Declares them so that those which are given without a mask are named.
+void declare_foreign(Arguments& arguments, Settings& settings) {
+  Arguments foreign;
+  declare_foreign_options(foreign, settings);
+  for (Argument argument : foreign.list()) {
+    if (argument.name != "--mask") {
+      argument.assign = [&settings, name = argument.name, assign = argument.assign](std::string_view text) {
+        settings.foreign_flags.push_back(name);
+        assign(text);
+      };
+    }
+    arguments.add(std::move(argument));
+  }
 }
 
 }  // namespace

@@ -46,10 +46,11 @@ bool answers_to(const vk::raii::PhysicalDevice& device, const std::string& wante
 [[noreturn]] void throw_no_device(const std::string& wanted, const std::string& lacking,
                                   const std::string& present) {
   throw Error({.code = ErrorCode::io,
-               .what = lacking.empty() ? fmt::format("no Vulkan device '{}'", wanted)
-                                       : fmt::format("device '{}' lacks {}", wanted, lacking),
+               .what = !lacking.empty()  ? fmt::format("device '{}' lacks {}", wanted, lacking)
+                       : present.empty() ? fmt::format("no Vulkan device '{}': no driver found", wanted)
+                                         : fmt::format("no Vulkan device '{}'", wanted),
                .where = "--device",
-               .limit = present.empty() ? "no driver found" : "present: " + present,
+               .limit = present,
                .remedy = wanted == "lavapipe"
                              ? "install mesa-vulkan-drivers (/usr/share/vulkan/icd.d/lvp_icd.x86_64.json)"
                              : ""});

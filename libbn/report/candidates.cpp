@@ -10,11 +10,11 @@
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 
 #include "bn/error.h"
 #include "bn/report.h"
 #include "bn/texture.h"
+#include "texture/codec.h"
 
 namespace bn::report {
 namespace {
@@ -23,15 +23,6 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 constexpr std::uintmax_t kMaxManifestBytes = 16u << 20;
-
-bool is_texture_name(const fs::path& path) {
-  static const std::set<std::string> kExtensions{".png", ".exr",  ".tif",  ".tiff", ".bin", ".h",
-                                                 ".bmp", ".hdr",  ".pfm",  ".pgm",  ".ppm", ".tga",
-                                                 ".jpg", ".jpeg", ".ktx2", ".dds"};
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-  return kExtensions.contains(extension);
-}
 
 /// By relative path. A manifest that cannot be read is a note: the files stand without it.
 std::map<std::string, JobNote> read_manifest(const fs::path& path, std::vector<std::string>& notes) {
@@ -75,7 +66,7 @@ std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, cons
     if (entry->path().filename().string().starts_with('.')) {
       // Hidden: what systems and editors leave beside files (._slice.png, .slice.png.swp).
       if (entry->is_directory(ignored)) entry.disable_recursion_pending();
-    } else if (entry->is_regular_file(ignored) && is_texture_name(entry->path())) {
+    } else if (entry->is_regular_file(ignored) && texture::has_image_extension(entry->path())) {
       if (found.size() == static_cast<std::size_t>(kMaxReportFiles)) {
         throw Error({.code = ErrorCode::over_limit,
                      .what = "too many files for one report",

@@ -121,7 +121,7 @@ ReportSummary write_report(const ReportOptions& options, const Execution& execut
     if (found.first_fault) throw Error(*found.first_fault);
     throw Error({.code = ErrorCode::invalid_input,
                  .what = found.notes.empty() ? "nothing to report on" : found.notes.front(),
-                 .where = options.inputs.front().string(),
+                 .where = found.notes.empty() ? options.inputs.front().string() : "",
                  .limit = "",
                  .remedy = "name textures, or folders that hold some"});
   }

@@ -324,6 +324,21 @@ TEST_F(Report, HiddenFilesAreNoTexturesAndABadSliceIsNamed) {
   }
 }
 
+TEST_F(Report, FindsFilesOfEveryFormatThatIsRead) {
+  const Image mask = encode_mask(void_and_cluster({.size = {32, 32}}), SampleType::u8);
+  std::string bytes(reinterpret_cast<const char*>(mask.samples.data()), mask.samples.size());
+  put_bytes(folder / "a.pgm", "P5 32 32 255\n" + bytes);
+  for (char& c : bytes) c = static_cast<char>(c < 0 ? 0 : 1);
+  std::string bits;
+  for (std::size_t i = 0; i < bytes.size(); i += 8) {
+    int byte = 0;
+    for (std::size_t k = 0; k < 8; ++k) byte = 2 * byte + bytes[i + k];
+    bits += static_cast<char>(byte);
+  }
+  put_bytes(folder / "b.pbm", "P4 32 32\n" + bits);
+  EXPECT_EQ(write_report({.inputs = {folder.path()}, .out = folder / "r.html"}).masks, 2);
+}
+
 TEST_F(Report, SortsItsTableWithoutAScript) {
   for (std::uint64_t seed = 1; seed <= 9; ++seed) {
     write_mask(folder / ("m" + std::to_string(seed) + ".png"), 32, seed);

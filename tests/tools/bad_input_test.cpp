@@ -84,6 +84,15 @@ TEST_F(BadInput, OutOfRangeOptions) {
                  {"--size", "1..16384"});
 }
 
+TEST_F(BadInput, ListsAreExplainedAsACommandLineWritesThem) {
+  expect_failure(1, {"noise", "void-and-cluster", "--size", "64x", "-o", "x.png"},
+                 {"'64x' cannot be read (allowed: WIDTHxHEIGHT, each 1..16384 pixels); write it like"});
+  expect_failure(1, {"retarget", "x.png", "--step", "5"},
+                 {"(allowed: X,Y|auto, two whole numbers, or auto)"});
+  expect_failure(1, {"retarget", "x.png", "--weights", "0"},
+                 {"(allowed: N,N..., 1..16 whole numbers, each 1..1000"});
+}
+
 TEST_F(BadInput, MisspeltWords) {
   expect_failure(1, {"retarget", "mask.png", "--raduis", "6"}, {"--raduis", "did you mean --radius?"});
   expect_failure(1, {"nosie", "void-and-cluster"}, {"nosie", "did you mean bn noise?"});

@@ -19,5 +19,15 @@ TEST(Output, NestedNamesAreJoinedByDots) {
   EXPECT_EQ(lines_of({{"a", {{"b", 1}, {"c", {1, 2}}}}, {"long", true}}), "a.b   1\na.c   1,2\nlong  yes\n");
 }
 
+TEST(Output, ParagraphsFitEightyColumnsAndLeaveWordsWhole) {
+  EXPECT_EQ(paragraph("", 6), "");
+  EXPECT_EQ(paragraph("short", 6), "      short\n");
+  const std::string word(30, 'w');
+  EXPECT_EQ(paragraph(word + " " + word + " " + word, 0), word + " " + word + "\n" + word + "\n");
+  EXPECT_EQ(paragraph(std::string(80, 'x') + " y", 0), std::string(80, 'x') + "\ny\n");
+  const std::string path = "/long/" + std::string(90, 'p');
+  EXPECT_EQ(paragraph(path + ": it is", 2), "  " + path + ":\n  it is\n");
+}
+
 }  // namespace
 }  // namespace bn::tools

@@ -370,6 +370,9 @@ TEST_F(SpectrumVerb, RefusesWhatItCannotRead) {
   EXPECT_EQ(run({}).exit_code, 1);
   EXPECT_EQ(run({"mask.png", "--channel", "3"}).exit_code, 3);
   EXPECT_EQ(run({"mask.png", "narrow.png", "--volume"}).exit_code, 3);
+  const ProcessResult picture = run({"mask.png", "--check", "stbn"});
+  EXPECT_EQ(picture.exit_code, 3);
+  EXPECT_NE(picture.err.find("add --volume, or use --check blue"), std::string::npos) << picture.err;
   // What cannot be written is found before anything is read.
   for (const auto& [option, path] : {std::pair{"--png", "no/out.png"}, {"--csv", "no/out.csv"}}) {
     const ProcessResult outcome = run({"absent.png", option, path});

@@ -204,7 +204,16 @@ TEST_F(Verbs, ARetargetTileOfAnotherProgramIsMeasured) {
   const auto wrong = run({"verify", "t.png", "--mask", "m.png", "--step", "5,3", "--encoding", "plus3"}, 5);
   EXPECT_NE(wrong.out.find("stored as plus128?"), std::string::npos) << wrong.out;
   run({"verify", "t.png", "--mask", "m.png"}, 1);  // the step is needed
-  run({"verify", "t.png", "--step", "5,3"}, 1);    // the mask is needed
+  for (const std::vector<std::string>& option :
+       std::vector<std::vector<std::string>>{{"--step", "5,3"},
+                                             {"--to", "m.png"},
+                                             {"--form", "gather"},
+                                             {"--radius", "3"},
+                                             {"--encoding", "plus3"}}) {
+    const auto alone = run({"verify", "t.png", option[0], option[1]}, 1);
+    EXPECT_NE(alone.err.find(option[0] + ": does not apply (allowed: only with --mask)"), std::string::npos)
+        << alone.err;
+  }
   run({"verify", "t.png", "--mask", "m.png", "--step", "5,3", "--encoding", "minus3"}, 1);
 }
 
