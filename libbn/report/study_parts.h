@@ -25,9 +25,9 @@ std::string pass_table(const Study& study, const std::string& scene);
 /// What the names of the study's methods mean.
 std::string method_words(const Study& study);
 
-/// The whole frame with white noise and with the best method; errors and spectra of every method, each beside
-/// its name; the first frames; block sizes. What a file lacks is left out, with a note.
-std::string frames_html(const std::string& scene, const std::string& best,
+/// The whole frame with white noise and with the method `shown`; errors and spectra of every method, each
+/// beside its name; the first frames; block sizes. What a file lacks is left out, with a note.
+std::string frames_html(const std::string& scene, const std::string& shown,
                         const std::filesystem::path& folder);
 std::string sheets_html(const Study& study, const std::string& scene, const std::string& region,
                         const std::filesystem::path& folder, std::vector<std::string>& notes);

@@ -138,7 +138,7 @@ report::Section scene_section(const Study& study, const report::StudyScene& scen
           report::escaped(name), report::escaped(scene.about), report::whole(study.reference_paths),
           report::number(scene.reference_rmse)) +
       report::verdict_html(rows, region, index) +
-      report::frames_html(name, best == nullptr ? "" : best->name, folder) +
+      report::frames_html(name, best == nullptr ? "retarget" : best->name, folder) +
       report::methods_table(rows, regions, scene) + "<div class=\"plots\">" +
       report::plot_figure(section.plots[0], 0, "Radial power",
                           fmt::format("of the error in region “{}” at frame {}, dB.", report::escaped(region),

@@ -95,13 +95,14 @@ std::string frame_figure(const fs::path& path, std::string_view title, std::stri
 
 }  // namespace
 
-std::string frames_html(const std::string& scene, const std::string& best, const fs::path& folder) {
+std::string frames_html(const std::string& scene, const std::string& shown, const fs::path& folder) {
   const auto path = [&](const std::string& method) { return folder / scene / (method + ".png"); };
   std::string html;
   if (fs::exists(path("white")))
     html += frame_figure(path("white"), "Without:", "white noise, one path a pixel.");
-  if (!best.empty() && fs::exists(path(best)))
-    html += frame_figure(path(best), fmt::format("With {}:", escaped(best)), "as many paths, better spread.");
+  if (fs::exists(path(shown)))
+    html +=
+        frame_figure(path(shown), fmt::format("With {}:", escaped(shown)), "as many paths, better spread.");
   if (html.empty()) return {};
   return fmt::format(
       "<div class=\"frames\">{}</div>\n<p class=\"about\">Every method's last frame is in the folder {}, "
