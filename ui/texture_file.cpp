@@ -67,15 +67,6 @@ bool same_shape(const Image& a, const Image& b) {
 
 }  // namespace
 
-bool has_image_name(const fs::path& path) {
-  static constexpr std::array<std::string_view, 15> kExtensions{".png", ".exr",  ".tif", ".tiff", ".bin",
-                                                                ".h",   ".ktx2", ".dds", ".hdr",  ".pfm",
-                                                                ".pgm", ".ppm",  ".tga", ".jpg",  ".jpeg"};
-  std::string extension = path.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::find(kExtensions.begin(), kExtensions.end(), extension) != kExtensions.end();
-}
-
 TextureFile read_texture(const fs::path& path, const Execution& execution) {
   TextureFile texture{
       .path = path, .files = {path}, .images = {}, .metadata = {}, .metadata_fault = {}, .annealing = {}};

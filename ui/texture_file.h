@@ -12,6 +12,7 @@
 #include "bn/retarget_anneal.h"
 #include "bn/spectrum.h"
 #include "bn/texture.h"
+#include "bn/volume.h"
 #include "ui/image_view.h"
 
 namespace bn::ui {
@@ -32,9 +33,6 @@ inline constexpr std::uint64_t kMaxTextureBytes = std::uint64_t{2} << 30;
 /// Reads a file, or the images of a folder, ordered as people order names. Errors: io, invalid_input (none,
 /// sizes that differ), over_limit, cancelled.
 TextureFile read_texture(const std::filesystem::path& path, const Execution& execution);
-
-/// Whether `path` has a name of an image format that libbn reads.
-bool has_image_name(const std::filesystem::path& path);
 
 /// How an atlas is cut into slices: row by row.
 struct AtlasCut {

@@ -13,8 +13,7 @@
 
 #include "bn/error.h"
 #include "bn/report.h"
-#include "bn/texture.h"
-#include "texture/codec.h"
+#include "bn/volume.h"
 
 namespace bn::report {
 namespace {
@@ -66,7 +65,7 @@ std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, cons
     if (entry->path().filename().string().starts_with('.')) {
       // Hidden: what systems and editors leave beside files (._slice.png, .slice.png.swp).
       if (entry->is_directory(ignored)) entry.disable_recursion_pending();
-    } else if (entry->is_regular_file(ignored) && texture::has_image_extension(entry->path())) {
+    } else if (entry->is_regular_file(ignored) && has_image_name(entry->path())) {
       if (found.size() == static_cast<std::size_t>(kMaxReportFiles)) {
         throw Error({.code = ErrorCode::over_limit,
                      .what = "too many files for one report",

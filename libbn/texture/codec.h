@@ -34,9 +34,6 @@ inline std::string extension_of(const std::filesystem::path& path) {
   return extension;
 }
 
-/// Whether the name ends as those of files that read_image() reads.
-bool has_image_extension(const std::filesystem::path& path);
-
 /// Decodes bytes by their signature, or by the extension of `name` where they have none of those we
 /// know. Throws like read_image(); `name` is for messages.
 Decoded decode(ByteView bytes, const std::string& name, const Execution& execution);

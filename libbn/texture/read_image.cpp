@@ -11,7 +11,7 @@
 #include <new>
 #include <system_error>
 
-#include "bn/texture.h"
+#include "bn/volume.h"
 #include "texture/codec.h"
 #include "texture/error.h"
 #include "texture/image.h"
@@ -144,11 +144,6 @@ Decoded decode(ByteView bytes, const std::string& name, const Execution& executi
   }
 }
 
-bool has_image_extension(const std::filesystem::path& path) {
-  return std::find(std::begin(kExtensions), std::end(kExtensions), extension_of(path)) !=
-         std::end(kExtensions);
-}
-
 FileContent read_any(const std::filesystem::path& path, const Execution& execution) {
   const Bytes bytes = read_file(path, execution);
   Decoded decoded = decode(std::as_bytes(std::span(bytes)), path.string(), execution);
@@ -167,6 +162,11 @@ FileContent read_any(const std::filesystem::path& path, const Execution& executi
 }
 
 }  // namespace texture
+
+bool has_image_name(const std::filesystem::path& path) {
+  return std::find(std::begin(texture::kExtensions), std::end(texture::kExtensions),
+                   texture::extension_of(path)) != std::end(texture::kExtensions);
+}
 
 FileContent read_image(const std::filesystem::path& path, const Execution& execution) {
   FileContent content = texture::read_any(path, execution);

@@ -25,7 +25,7 @@ bool is_hidden(const fs::path& path) { return path.filename().string().starts_wi
 
 bool is_image_name(const fs::path& path) {
   if (is_hidden(path) || path.stem() == "contact_sheet") return false;
-  return texture::has_image_extension(path);
+  return has_image_name(path);
 }
 
 bool path_less(const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); }

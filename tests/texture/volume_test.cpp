@@ -154,6 +154,13 @@ TEST(SliceFiles, WhatIsNotThereIsNamed) {
   EXPECT_EQ(error_of_reading(folder / "missing.png")->code, ErrorCode::io);
 }
 
+TEST(SliceFiles, NamesOfImagesAreThoseOfEveryFormatThatIsRead) {
+  for (const char* name : {"a.png", "A.PNG", "x/b.webp", "c.Pbm", "d.tiff", "e.h", ".f.exr"})
+    EXPECT_TRUE(has_image_name(name)) << name;
+  for (const char* name : {"", "png", ".png", "a.txt", "a.png.json", "dir/"})
+    EXPECT_FALSE(has_image_name(name)) << name;
+}
+
 TEST(SliceFiles, AnOutputThatWouldReplaceAnInputIsFound) {
   const TemporaryFolder folder;
   for (const char* name : {"s_0.png", "s_1.png", "m.png"}) put_bytes(folder / name, "");

@@ -26,7 +26,10 @@ bool has_number(const std::filesystem::path& path);
 /// `pattern` with `number` >= 0 in its place. Errors: as above; invalid_input (no place for a number).
 std::filesystem::path numbered_path(const std::filesystem::path& pattern, int number);
 
-/// The images right in a folder, by the extensions that read_image() knows, in numeric order of their names.
+/// Whether `path` ends as files do that read_image() reads. Looks at the name alone.
+bool has_image_name(const std::filesystem::path& path);
+
+/// The images right in a folder (see has_image_name()), in numeric order of their names.
 /// Left out are hidden files (their names begin with a dot), what is no regular file, and contact sheets.
 /// Errors: io (no such folder, no permission).
 std::vector<std::filesystem::path> image_files(const std::filesystem::path& folder);
