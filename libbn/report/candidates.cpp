@@ -13,6 +13,7 @@
 
 #include "bn/error.h"
 #include "bn/report.h"
+#include "bn/texture.h"
 #include "bn/volume.h"
 
 namespace bn::report {
@@ -51,12 +52,57 @@ std::map<std::string, JobNote> read_manifest(const fs::path& path, std::vector<s
   return result;
 }
 
+bool is_pattern(const std::string& path) {
+  try {
+    return has_number(path);
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+/// What the manifest tells of files: by their path, or by the path of their slices, slice_%03d.png.
+class JobNotes {
+ public:
+  explicit JobNotes(std::map<std::string, JobNote> by_path) : by_path_(std::move(by_path)) {
+    for (const auto& [path, note] : by_path_) {
+      // No page holds more textures than that.
+      if (is_pattern(path) && std::ssize(patterns_) < kMaxReportTextures) patterns_.push_back(path);
+    }
+  }
+
+  JobNote of(const std::string& name) const {
+    if (const auto exact = by_path_.find(name); exact != by_path_.end()) return exact->second;
+    for (const std::string& pattern : patterns_) {
+      if (is_slice(pattern, name)) return by_path_.at(pattern);
+    }
+    return {};
+  }
+
+ private:
+  /// Whether one of the numbers in `name` makes it of the pattern.
+  static bool is_slice(const std::string& pattern, const std::string& name) {
+    constexpr std::string_view kDigits = "0123456789";
+    for (auto at = name.find_first_of(kDigits); at != std::string::npos;
+         at = name.find_first_of(kDigits, at)) {
+      const auto end = std::min(name.find_first_not_of(kDigits, at), name.size());
+      if (end - at <= 9 &&
+          numbered_path(pattern, std::stoi(name.substr(at, end - at))).generic_string() == name)
+        return true;
+      at = end;
+    }
+    return false;
+  }
+
+  std::map<std::string, JobNote> by_path_;
+  std::vector<std::string> patterns_;
+};
+
 }  // namespace
 
 std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, const Execution& execution,
                                      std::vector<std::string>& notes) {
   std::vector<Candidate> found;
-  const auto jobs = read_manifest(folder / "manifest.json", notes);
+  const JobNotes jobs(read_manifest(folder / "manifest.json", notes));
   std::error_code error;
   fs::recursive_directory_iterator entry(folder, fs::directory_options::skip_permission_denied, error), end;
   while (!error && entry != end) {
@@ -74,9 +120,7 @@ std::vector<Candidate> candidates_in(const fs::path& folder, bool prefixed, cons
                      .remedy = "name the files or folders that matter"});
       }
       const std::string name = entry->path().lexically_relative(folder).generic_string();
-      const auto job = jobs.find(name);
-      found.push_back({entry->path(), prefixed ? entry->path().generic_string() : name,
-                       job == jobs.end() ? JobNote{} : job->second});
+      found.push_back({entry->path(), prefixed ? entry->path().generic_string() : name, jobs.of(name)});
     }
     entry.increment(error);
   }

@@ -87,6 +87,25 @@ TEST_F(StackReport, SlicesInFilesOfTheirOwnAreOneVolume) {
   EXPECT_NE(page().find("3 of 4 slices are here"), std::string::npos);
 }
 
+TEST_F(StackReport, AManifestTellsOfSlicesByTheirPattern) {
+  std::filesystem::create_directory(folder_ / "in");
+  bn::write_volume(folder_ / "in" / "s_%02d.png", stack_, metadata_);
+  Image wide = stack_;  // another encoding
+  wide.type = SampleType::u16;
+  wide.samples.clear();
+  for (const std::byte sample : stack_.samples) {
+    wide.samples.push_back(std::byte{0});
+    wide.samples.push_back(sample);
+  }
+  bn::write_volume(folder_ / "in" / "s.ktx2", wide, metadata_);
+  write_text_file(folder_ / "in" / "manifest.json",
+                  R"({"jobs": [{"name": "vol", "kind": "spatiotemporal", "files": [{"path": "s_%02d.png"},
+                      {"path": "s.ktx2"}]}], "times": {"jobs": {"vol": 0.25}}})");
+  EXPECT_EQ(report({folder_ / "in"}).volumes, 1);
+  EXPECT_NE(page().find("made in 0.25 s"), std::string::npos);
+  EXPECT_NE(page().find("Also as s.ktx2."), std::string::npos);
+}
+
 TEST_F(StackReport, ASliceByItselfIsAPicture) {
   bn::write_volume(folder_ / "slice_%03d.png", stack_, metadata_);
   EXPECT_EQ(report({folder_ / "slice_001.png"}).masks, 1);
