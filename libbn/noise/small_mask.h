@@ -10,7 +10,7 @@
 namespace bn::noise {
 
 /// Masks of so many pixels at most are small.
-inline constexpr std::int64_t kSmallArea = 24 * 24;
+inline constexpr std::int64_t kSmallArea = 19 * 19;
 
 /// Void-and-cluster as Ulichney wrote it: from random points, a fifth of all, whose tightest cluster is moved
 /// into the largest void until that changes nothing. Returns ranks; time in proportion to the square of the

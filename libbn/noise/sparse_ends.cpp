@@ -18,6 +18,9 @@ namespace {
 /// Of the masks of half, a quarter ... of the size.
 constexpr double kCoarseSigma = 1.9;
 constexpr int kCoarseSight = 11;
+/// Start energies are so many times those of the mask, 1/480 of the peak at most: with less chance in them,
+/// the few points of the coarsest levels settle into lattices, the same for every seed.
+constexpr std::int32_t kCoarseStartFactor = 24;
 
 // Of random_bits; the level is added, 1 for half the size.
 constexpr std::uint32_t kCoarseStream = 32;
@@ -39,7 +42,7 @@ void append_largest_voids(EnergyField& field, const PixelKernel& kernel, const B
   const Extent size = field.size;
   // Until so many pixels are set, the mean energy of all is below this, so the largest void is too.
   const auto limit = static_cast<std::int32_t>(
-      kStartEnergyLimit +
+      kCoarseStartFactor * kStartEnergyLimit +
       (std::int64_t{kernel.sum()} * (std::ssize(points) + count) + size.area() - 1) / size.area());
   Grid<std::uint32_t> when_set(size, kUnranked);
   constexpr int kRounds = 8;
@@ -109,7 +112,9 @@ std::vector<Pixel> points_by_half(Extent size, std::int64_t count, const PixelKe
   if (from_deeper > 0) points = points_by_half(half, from_deeper, kernel, blocks, seed, level + 1, execution);
   if (const std::int64_t left = std::min(count, half.area()) - std::ssize(points); left > 0) {
     EnergyField field(half, kernel.radius(), kSetMark);
-    write_start_energies(field, seed, kCoarseStream + static_cast<std::uint32_t>(level), execution);
+    for_each_pixel(
+        half, seed, kCoarseStream + static_cast<std::uint32_t>(level), execution,
+        [&](int x, int y, std::size_t, std::int32_t start) { field.at(x, y) = kCoarseStartFactor * start; });
     set_points(field, blocks, points);
     append_largest_voids(field, kernel, blocks, left, points);
   }

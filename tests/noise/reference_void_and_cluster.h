@@ -93,6 +93,7 @@ inline std::vector<std::size_t> reference_first_points(Extent size, std::int64_t
     points = reference_first_points(half, deeper, seed, level + 1);
   }
   PlainPattern pattern({.size = half, .seed = seed}, 32 + level);
+  for (std::int32_t& energy : pattern.energy) energy *= 24;
   for (const std::size_t point : points) pattern.set(point);
   while (std::ssize(points) < count) {
     points.push_back(pattern.largest_void());
@@ -153,7 +154,7 @@ inline std::vector<std::size_t> reference_last_holes(Extent size, std::vector<st
   return order;
 }
 
-/// Masks of 24 x 24 pixels and fewer: from a fifth of the pixels, at random, whose tightest cluster is moved
+/// Masks of 19 x 19 pixels and fewer: from a fifth of the pixels, at random, whose tightest cluster is moved
 /// into the largest void until that changes nothing.
 inline std::uint32_t reference_small_start(const VoidAndClusterOptions& options, PlainPattern& pattern) {
   std::vector<std::pair<std::uint64_t, std::size_t>> chance;
@@ -172,9 +173,9 @@ inline std::uint32_t reference_small_start(const VoidAndClusterOptions& options,
   return static_cast<std::uint32_t>(initial);
 }
 
-/// Of more than 24 x 24 pixels, without an initial pattern.
+/// Of more than 19 x 19 pixels, without an initial pattern.
 inline bool has_sparse_ends(const VoidAndClusterOptions& options, const PlainPattern& pattern) {
-  return options.initial_density == 0.0 && options.size.area() > 24 * 24 && pattern.sight() > 0;
+  return options.initial_density == 0.0 && options.size.area() > 19 * 19 && pattern.sight() > 0;
 }
 
 /// Sets the first points, gives them their ranks and returns their number.
@@ -200,7 +201,7 @@ inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOption
     const std::int64_t apart = 2 * std::max<std::int64_t>(pattern.sight(), 4);
     first = set_first_points(reference_first_points(options.size, count / (apart * apart), options.seed),
                              pattern, ranks);
-  } else if (options.initial_density == 0.0 && options.size.area() <= 24 * 24) {
+  } else if (options.initial_density == 0.0 && options.size.area() <= 19 * 19) {
     initial = reference_small_start(options, pattern);
   } else {
     for (std::uint32_t rank = 0; rank < initial; ++rank) pattern.set(pattern.largest_void());

