@@ -68,8 +68,12 @@ TEST_F(BakedFolder, RefusesAnotherStepUnlessUnsafe) {
 TEST_F(BakedFolder, AWrongStepCostsWhatTheStudySays) {
   TemporalTextures wrong = test::proven_textures();
   wrong.step = {48, 36};
-  const double right_db = run_flat_model({}, test::proven_textures()).back();
-  const double wrong_db = run_flat_model({}, wrong).back();
+  // The mean of eight runs, as in docs/validation.md: a single one scatters by half a decibel.
+  double right_db = 0.0, wrong_db = 0.0;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    right_db += run_flat_model({.seed = seed}, test::proven_textures()).back() / 8.0;
+    wrong_db += run_flat_model({.seed = seed}, wrong).back() / 8.0;
+  }
   EXPECT_GT(wrong_db, right_db + 5.0) << wrong_db << " dB against " << right_db << " dB";
 }
 
