@@ -151,12 +151,13 @@ class ColumnFiller {
         held_(locks),
         energy_when_set_(energy_when_set) {}
 
-  void run(RowRange rows, const std::function<void(std::int64_t)>& progress) {
-    for (bool is_full = false; !is_full;) {
+  void run(RowRange rows, std::int32_t step, const std::function<void(std::int64_t)>& progress) {
+    bool is_full = false;
+    for (std::int32_t limit = step; !is_full; limit = std::min(limit, kFullColumn - step) + step) {
       is_full = true;
       for (int first = 0; first < rows.count; first += kBandRows) {
         const int count = std::min(kBandRows, rows.count - first);
-        is_full &= fill_band({rows.first + first, count});
+        is_full &= fill_band({rows.first + first, count}, limit);
         held_.release();
         progress(std::exchange(set_, 0));
       }
@@ -164,20 +165,14 @@ class ColumnFiller {
   }
 
  private:
-  /// Columns are tried in turns, every so many along either axis, so that a band fills evenly.
-  static constexpr int kStartStep = 4;
   /// Bands follow each other in the cache.
-  static constexpr int kBandRows = 16;
+  static constexpr int kBandRows = 8;
 
-  /// Sets a voxel of every column at least, where no other thread is at work; whether all are full.
-  bool fill_band(RowRange rows) {
+  /// Sets the voxels below the limit, where no other thread is at work; whether all columns are full.
+  bool fill_band(RowRange rows, std::int32_t limit) {
     bool is_full = true;
-    for (int phase = 0; phase < kStartStep * kStartStep; ++phase) {
-      for (int y = phase / kStartStep; y < rows.count; y += kStartStep) {
-        for (int x = phase % kStartStep; x < field_.columns().width; x += kStartStep) {
-          is_full &= force({x, rows.first + y});
-        }
-      }
+    for (int y = rows.first; y < rows.first + rows.count; ++y) {
+      for (int x = 0; x < field_.columns().width; ++x) is_full &= force({x, y}, limit);
     }
     return is_full;
   }
@@ -185,22 +180,27 @@ class ColumnFiller {
   std::int64_t index(Column c) const { return std::int64_t{c.y} * field_.columns().width + c.x; }
   std::int32_t least(Column c) const { return field_.least[static_cast<std::size_t>(index(c))]; }
 
-  /// Sets the least voxel of a column, and what must come before it; whether it was full already.
-  bool force(Column start) {
-    if (!held_.move_to(start.y)) return false;
-    if (least(start) == kFullColumn) return true;
+  /// Sets the voxels of a column below the limit, and what must come before them; whether the column is full.
+  bool force(Column start, std::int32_t limit) {
+    if (!held_.wait_for(start.y)) return false;
+    if (least(start) >= limit) return least(start) == kFullColumn;
     way_.assign(1, start);
-    while (!way_.empty() && held_.wait_for(way_.back().y)) {
+    while (!way_.empty()) {
+      if (!held_.wait_for(way_.back().y)) return false;
       const Column last = way_.back();
-      const Column first = least(last) == kFullColumn ? last : first_in_reach(last);
-      if (first != last) {
-        way_.push_back(first);
+      if (least(last) >= limit) {
+        way_.pop_back();
         continue;
       }
-      if (least(last) != kFullColumn) set(last);  // or another thread has been here
-      way_.pop_back();
+      const Column first = first_in_reach(last);
+      if (first != last) {
+        way_.push_back(first);
+      } else {
+        set(last);
+        if (way_.size() > 1) way_.pop_back();
+      }
     }
-    return false;
+    return least(start) == kFullColumn;
   }
 
   /// The column in reach whose least voxel comes first, or one whose least voxel comes before that of `c`.
@@ -256,27 +256,27 @@ class ColumnFiller {
 
 template <class D>
 void fill(D, ColumnField<hn::TFromD<D>>& field, const ColumnKernel<hn::TFromD<D>>& kernel, RowRange rows,
-          RowLocks& locks, std::uint32_t* energy_when_set,
+          std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
           const std::function<void(std::int64_t)>& progress) {
-  ColumnFiller<D>(field, kernel, locks, energy_when_set).run(rows, progress);
+  ColumnFiller<D>(field, kernel, locks, energy_when_set).run(rows, step, progress);
 }
 
 void fill_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                       RowRange rows, RowLocks& locks, std::uint32_t* energy_when_set,
+                       RowRange rows, std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
                        const std::function<void(std::int64_t)>& progress) {
   if (field.stride() % 32 == 0) {
-    fill(hn::CappedTag<std::uint16_t, 32>(), field, kernel, rows, locks, energy_when_set, progress);
+    fill(hn::CappedTag<std::uint16_t, 32>(), field, kernel, rows, step, locks, energy_when_set, progress);
   } else if (field.stride() % 16 == 0) {
-    fill(hn::CappedTag<std::uint16_t, 16>(), field, kernel, rows, locks, energy_when_set, progress);
+    fill(hn::CappedTag<std::uint16_t, 16>(), field, kernel, rows, step, locks, energy_when_set, progress);
   } else {
-    fill(hn::CappedTag<std::uint16_t, 8>(), field, kernel, rows, locks, energy_when_set, progress);
+    fill(hn::CappedTag<std::uint16_t, 8>(), field, kernel, rows, step, locks, energy_when_set, progress);
   }
 }
 
 void fill_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                       RowRange rows, RowLocks& locks, std::uint32_t* energy_when_set,
+                       RowRange rows, std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
                        const std::function<void(std::int64_t)>& progress) {
-  fill(hn::CappedTag<std::int32_t, 8>(), field, kernel, rows, locks, energy_when_set, progress);
+  fill(hn::CappedTag<std::int32_t, 8>(), field, kernel, rows, step, locks, energy_when_set, progress);
 }
 
 }  // namespace
@@ -293,16 +293,16 @@ HWY_EXPORT(fill_32_bits_here);
 
 template <>
 void fill_columns(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel, RowRange rows,
-                  RowLocks& locks, std::uint32_t* energy_when_set,
+                  std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
                   const std::function<void(std::int64_t)>& progress) {
-  HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(field, kernel, rows, locks, energy_when_set, progress);
+  HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(field, kernel, rows, step, locks, energy_when_set, progress);
 }
 
 template <>
 void fill_columns(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel, RowRange rows,
-                  RowLocks& locks, std::uint32_t* energy_when_set,
+                  std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
                   const std::function<void(std::int64_t)>& progress) {
-  HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(field, kernel, rows, locks, energy_when_set, progress);
+  HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(field, kernel, rows, step, locks, energy_when_set, progress);
 }
 
 }  // namespace bn::noise

@@ -181,7 +181,8 @@ void expect_energies_from_scratch(const TorusSides& sides, const VolumeKernel& k
   RowLocks locks(sides.y, weights.reach_y(), true);
   int compared = 0;
   for (int row = 0; row < sides.y; ++row) {
-    fill_columns(field, columns, {row, 1}, locks, when_set.data(), [](std::int64_t) {});
+    fill_columns(field, columns, {row, 1}, static_cast<std::int32_t>(weights.sum() + kVolumeStartLimit),
+                 locks, when_set.data(), [](std::int64_t) {});
     for (std::int64_t i = 0; i < std::ssize(when_set); ++i) {
       if (when_set[static_cast<std::size_t>(i)] != kUnset) continue;
       std::int64_t energy = 0;
