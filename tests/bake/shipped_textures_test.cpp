@@ -29,6 +29,19 @@ TEST_P(ShippedTextures, AreWhatTheirRecipeMakes) {
 
 INSTANTIATE_TEST_SUITE_P(Sizes, ShippedTextures, testing::Values(64, 128));
 
+TEST(ShippedTextures, SpatiotemporalMasksAreWhatTheirRecipeMakes) {
+  const TemporaryFolder out;
+  bake(read_recipe(kTextures / "spatiotemporal.toml"), {.out_dir = out});
+  int compared = 0;
+  for (const auto& file : fs::recursive_directory_iterator(out / "64x32")) {
+    if (!file.is_regular_file()) continue;
+    const fs::path name = fs::relative(file.path(), out / ".");
+    EXPECT_TRUE(bytes_of(file.path()) == bytes_of(kTextures / name)) << name;
+    ++compared;
+  }
+  EXPECT_EQ(compared, 2 * (1 + 32));
+}
+
 TEST(ShippedTextures, TheDefaultRecipeIsSound) { EXPECT_NO_THROW(read_recipe(kTextures / "default.toml")); }
 
 }  // namespace
