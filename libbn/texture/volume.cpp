@@ -120,6 +120,15 @@ int atlas_rows(int depth, AtlasLayout layout, const std::string& where) {
   return rows;
 }
 
+/// The folder of a file a slice, if it is not there but could be made: slices have one of their own.
+fs::path folder_to_make(const fs::path& path) {
+  const fs::path folder = path.parent_path();
+  std::error_code ignored;
+  if (folder.empty() || fs::exists(fs::symlink_status(folder, ignored))) return {};
+  const fs::path above = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+  return fs::is_directory(above, ignored) ? folder : fs::path();
+}
+
 }  // namespace
 
 Volume read_volume(std::span<const fs::path> inputs, AtlasLayout atlas, const Execution& execution) {
@@ -166,6 +175,11 @@ void check_volume_writable(const fs::path& path, Shape shape, SampleType type, i
       fail_input(path.string(), "a number in the name of an atlas, which is one file",
                  "a name without a number");
     }
+    if (const fs::path folder = folder_to_make(path); !folder.empty()) {
+      // As if for a slice beside the folder.
+      const fs::path above = folder.has_parent_path() ? folder.parent_path() : fs::path(".");
+      return check_writable(above / numbered_path(path, 0).filename(), type, channels);
+    }
     for (int z = 0; z < shape.depth; ++z) check_writable(numbered_path(path, z), type, channels);
     return check_no_further_slices(path, shape.depth);
   }
@@ -184,6 +198,7 @@ std::vector<fs::path> write_volume(const fs::path& path, const Image& volume, co
   check_volume_writable(path, volume.shape(), volume.type, volume.channels, output);
   if (has_number(path)) {
     std::vector<fs::path> files;
+    if (const fs::path folder = folder_to_make(path); !folder.empty()) make_folder(folder);
     for (int z = 0; z < volume.depth; ++z) {
       files.push_back(numbered_path(path, z));
       write_image(files.back(), slice_of(volume, z), metadata);

@@ -255,6 +255,23 @@ TEST(Volume, NothingIsWrittenUnlessAllCanBe) {
   EXPECT_FALSE(fs::exists(folder / "t_0.png"));
 }
 
+TEST(Volume, SlicesGetAFolderOfTheirOwn) {
+  const TemporaryFolder here;
+  const Image image{.size = {2, 2},
+                    .depth = 3,
+                    .channels = 1,
+                    .type = SampleType::u8,
+                    .samples = std::vector<std::byte>(12)};
+  EXPECT_NO_THROW(check_volume_writable(here / "new/s_%d.png", image.shape(), image.type, 1));
+  EXPECT_FALSE(fs::exists(here / "new")) << "a check writes nothing";
+  EXPECT_EQ(write_volume(here / "new/s_%d.png", image, {}).size(), 3u);
+  EXPECT_TRUE(fs::exists(here / "new/s_2.png"));
+  // One folder, not a path of them; and one file has none of its own.
+  EXPECT_THROW(check_volume_writable(here / "no/new/s_%d.png", image.shape(), image.type, 1), Error);
+  EXPECT_THROW(check_volume_writable(here / "other/s.ktx2", image.shape(), image.type, 1), Error);
+  EXPECT_THROW(check_volume_writable(here / "new2/s_%d.gif", image.shape(), image.type, 1), Error);
+}
+
 TEST(Volume, TheMemoryLimitIsAppliedToAllSlices) {
   const TemporaryFolder folder;
   write_volume(folder / "s_%d.bin", random_image({64, 64, 8}, 1, SampleType::u8), {});

@@ -35,7 +35,7 @@ const Kind& baking::spatiotemporal_kind() {
           "hold all slices.",
       .examples =
           {{"bn noise spatiotemporal --size 128x128x64 -o stbn/slice_%03d.png",
-            "64 frames, a file each; the folder must exist"},
+            "64 frames, a file each, in a folder of their own"},
            {"bn noise spatiotemporal --size 128x128x64 --preset filtered --temporal ema:0.1 -o filtered.ktx2",
             "for an exponential average that keeps 90 %, one file"},
            {"bn noise spatiotemporal --size 64x64x32 --preset stbn --type 16bit -o stbn.dds",
