@@ -89,12 +89,12 @@ struct VolumeOutput {
   AtlasLayout atlas = {};                ///< columns > 0: one picture; rows need not be given
 };
 /// Writes `volume`, in this order of preference: a file a slice, numbered from 0, if `path` has a place for a
-/// number; one picture if `output.atlas` says so; one file in a format that holds volumes (.ktx2, .dds, .exr,
-/// .bin, .h). A volume of one slice may go to any format as a picture. Every file is written as by
-/// write_image(), each with the hash of its own pixels. Nothing is written before all paths have been
-/// checked; a disk that fills up later leaves whole files, some old, some new. Returns the files. Errors:
-/// those of write_image(); invalid_input (several slices for one picture; files that a reader of the pattern
-/// would take for further slices; columns that do not divide the slices).
+/// number, in a folder that is made if only it is missing; one picture if `output.atlas` says so; one file in
+/// a format that holds volumes (.ktx2, .dds, .exr, .bin, .h). A volume of one slice may go to any format as a
+/// picture. Every file is written as by write_image(), each with the hash of its own pixels. Nothing is
+/// written before all paths have been checked; a disk that fills up later leaves whole files, some old, some
+/// new. Returns the files. Errors: those of write_image(); invalid_input (several slices for one picture;
+/// files that a reader of the pattern would take for further slices; columns that do not divide the slices).
 std::vector<std::filesystem::path> write_volume(const std::filesystem::path& path, const Image& volume,
                                                 const Metadata& metadata, const VolumeOutput& output = {});
 
