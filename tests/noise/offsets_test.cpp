@@ -109,7 +109,9 @@ TEST(Shifts, OfSamplesAreFarApart) {
       }
       // Of the densest packing, whose distance is sqrt(2 / sqrt(3) area / count).
       const double densest = std::sqrt(2.0 / std::sqrt(3.0) * static_cast<double>(size.area()) / count);
-      if (count > 1) EXPECT_GE(least, 0.6 * densest) << count << " on " << size.width << "x" << size.height;
+      if (count > 1) {
+        EXPECT_GE(least, 0.6 * densest) << count << " on " << size.width << "x" << size.height;
+      }
     }
   }
   EXPECT_THROW(sample_shifts(0, {64, 64}), Error);

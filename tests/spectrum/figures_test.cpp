@@ -157,7 +157,9 @@ TEST(Figures, ManyMasks) {
     PowerSpectrum average = power_at(masks[0], shape, level);
     for (std::size_t i = 1; i < masks.size(); ++i) {
       accumulate(average, power_at(masks[i], shape, level));
-      if (i == 9) EXPECT_NEAR(figures_of_merit(average, 0.0).anisotropy_db_mean, -10.0, 0.4) << level;
+      if (i == 9) {
+        EXPECT_NEAR(figures_of_merit(average, 0.0).anisotropy_db_mean, -10.0, 0.4) << level;
+      }
     }
     const FiguresOfMerit all = figures_of_merit(average, 0.0);
     EXPECT_NEAR(all.peak, peak, 0.12) << level;
