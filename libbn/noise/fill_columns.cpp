@@ -9,8 +9,8 @@
 // there to the least in that one's reach, and so on; energies fall along the way, so it ends at a voxel that
 // leads. That is set, and the one before, which waited for it, looks again. Each look either sets a voxel or
 // adds one to the way that will be set, so there are two looks a voxel, and they are at columns that the last
-// additions have brought into the cache. A way goes wherever it must, so no thread ever waits for another;
-// one that comes to where another thread is at work is given up, and tried again later.
+// additions have brought into the cache. A way goes wherever it must, so no thread has to
+// wait for another; one that comes to where another thread stays at work is given up, and tried again later.
 //
 // Invariant. The keys (energy, index) along the way fall, and those further back can only have grown since;
 // so no column is on it twice.
@@ -143,23 +143,23 @@ class ColumnFiller {
  public:
   using Lane = hn::TFromD<D>;
 
-  ColumnFiller(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel, RowLocks& locks,
-               std::uint32_t* energy_when_set)
-      : field_(field),
-        adder_(field, kernel),
-        around_(field.columns(), kernel),
-        held_(locks),
-        energy_when_set_(energy_when_set) {}
+  explicit ColumnFiller(const ColumnJob<Lane>& job)
+      : job_(job),
+        field_(job.field),
+        adder_(job.field, job.kernel),
+        around_(job.field.columns(), job.kernel),
+        held_(job.locks) {}
 
-  void run(RowRange rows, std::int32_t step, const std::function<void(std::int64_t)>& progress) {
+  void run() {
     bool is_full = false;
-    for (std::int32_t limit = step; !is_full; limit = std::min(limit, kFullColumn - step) + step) {
+    for (std::int32_t limit = job_.step; !is_full;
+         limit = std::min(limit, kFullColumn - job_.step) + job_.step) {
       is_full = true;
-      for (int first = 0; first < rows.count; first += kBandRows) {
-        const int count = std::min(kBandRows, rows.count - first);
-        is_full &= fill_band({rows.first + first, count}, limit);
+      for (int first = 0; first < job_.rows.count; first += kBandRows) {
+        const int count = std::min(kBandRows, job_.rows.count - first);
+        is_full &= fill_band({job_.rows.first + first, count}, limit);
         held_.release();
-        progress(std::exchange(set_, 0));
+        tell();
       }
     }
   }
@@ -167,6 +167,10 @@ class ColumnFiller {
  private:
   /// Bands follow each other in the cache.
   static constexpr int kBandRows = 8;
+  /// A millisecond's work or two.
+  static constexpr std::int64_t kMostUntold = 1024;
+
+  void tell() { job_.progress(std::exchange(set_, 0)); }
 
   /// Sets the voxels below the limit, where no other thread is at work; whether all columns are full.
   bool fill_band(RowRange rows, std::int32_t limit) {
@@ -197,6 +201,7 @@ class ColumnFiller {
         way_.push_back(first);
       } else {
         set(last);
+        if (set_ == kMostUntold) tell();
         if (way_.size() > 1) way_.pop_back();
       }
     }
@@ -238,45 +243,34 @@ class ColumnFiller {
   HWY_INLINE void set(Column c) {
     const int slice = least_slice(c);
     const std::int64_t at = index(c);
-    energy_when_set_[slice * field_.columns().area() + at] = static_cast<std::uint32_t>(least(c));
+    job_.energy_when_set[slice * field_.columns().area() + at] = static_cast<std::uint32_t>(least(c));
     field_.column(at)[slice] = Lanes<Lane>::kSet;
     adder_.add(c.x, c.y, slice);
     adder_.update(at);
     ++set_;
   }
 
+  const ColumnJob<Lane>& job_;
   ColumnField<Lane>& field_;
   ColumnAdder<D> adder_;
   Surroundings around_;
   RowLocks::Holder held_;
-  std::uint32_t* const energy_when_set_;
   std::int64_t set_ = 0;
   std::vector<Column> way_;
 };
 
-template <class D>
-void fill(D, ColumnField<hn::TFromD<D>>& field, const ColumnKernel<hn::TFromD<D>>& kernel, RowRange rows,
-          std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
-          const std::function<void(std::int64_t)>& progress) {
-  ColumnFiller<D>(field, kernel, locks, energy_when_set).run(rows, step, progress);
-}
-
-void fill_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                       RowRange rows, std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
-                       const std::function<void(std::int64_t)>& progress) {
-  if (field.stride() % 32 == 0) {
-    fill(hn::CappedTag<std::uint16_t, 32>(), field, kernel, rows, step, locks, energy_when_set, progress);
-  } else if (field.stride() % 16 == 0) {
-    fill(hn::CappedTag<std::uint16_t, 16>(), field, kernel, rows, step, locks, energy_when_set, progress);
+void fill_16_bits_here(const ColumnJob<std::uint16_t>& job) {
+  if (job.field.stride() % 32 == 0) {
+    ColumnFiller<hn::CappedTag<std::uint16_t, 32>>(job).run();
+  } else if (job.field.stride() % 16 == 0) {
+    ColumnFiller<hn::CappedTag<std::uint16_t, 16>>(job).run();
   } else {
-    fill(hn::CappedTag<std::uint16_t, 8>(), field, kernel, rows, step, locks, energy_when_set, progress);
+    ColumnFiller<hn::CappedTag<std::uint16_t, 8>>(job).run();
   }
 }
 
-void fill_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                       RowRange rows, std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
-                       const std::function<void(std::int64_t)>& progress) {
-  fill(hn::CappedTag<std::int32_t, 8>(), field, kernel, rows, step, locks, energy_when_set, progress);
+void fill_32_bits_here(const ColumnJob<std::int32_t>& job) {
+  ColumnFiller<hn::CappedTag<std::int32_t, 8>>(job).run();
 }
 
 }  // namespace
@@ -291,19 +285,8 @@ HWY_EXPORT(fill_16_bits_here);
 HWY_EXPORT(fill_32_bits_here);
 }  // namespace
 
-template <>
-void fill_columns(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel, RowRange rows,
-                  std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
-                  const std::function<void(std::int64_t)>& progress) {
-  HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(field, kernel, rows, step, locks, energy_when_set, progress);
-}
-
-template <>
-void fill_columns(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel, RowRange rows,
-                  std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
-                  const std::function<void(std::int64_t)>& progress) {
-  HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(field, kernel, rows, step, locks, energy_when_set, progress);
-}
+void fill_columns(const ColumnJob<std::uint16_t>& job) { HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(job); }
+void fill_columns(const ColumnJob<std::int32_t>& job) { HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(job); }
 
 }  // namespace bn::noise
 #endif  // HWY_ONCE

@@ -16,15 +16,25 @@ struct RowRange {
   int count;
 };
 
-/// Sets all voxels of the rows, and what must come before them wherever it lies, always voxels that are the
-/// least (energy, index) of all unset voxels in reach when they are set. Rows are filled evenly: first what
-/// is below an energy of `step`, then what is below twice that, and so on. Threads that share `locks` may do
-/// the same for other rows meanwhile. Writes the energy of each voxel when it was set to
-/// energy_when_set[(slice * height + y) * width + x]. Calls progress(voxels set since the last call) every
-/// few milliseconds at most; it may throw.
+/// What fill_columns() fills, how and with whom.
 template <class Lane>
-void fill_columns(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel, RowRange rows,
-                  std::int32_t step, RowLocks& locks, std::uint32_t* energy_when_set,
-                  const std::function<void(std::int64_t)>& progress);
+struct ColumnJob {
+  ColumnField<Lane>& field;
+  const ColumnKernel<Lane>& kernel;
+  RowRange rows;
+  /// Rows are filled evenly: first what is below this energy, then what is below twice that, and so on.
+  std::int32_t step;
+  /// Threads that share them may do the same for other rows meanwhile.
+  RowLocks& locks;
+  /// The energy of each voxel when it was set, index (slice * height + y) * width + x.
+  std::uint32_t* energy_when_set;
+  /// Called with the voxels set since the last call, every few milliseconds at most. It may throw.
+  std::function<void(std::int64_t)> progress;
+};
+
+/// Sets all voxels of the rows, and what must come before them wherever it lies, always voxels that are the
+/// least (energy, index) of all unset voxels in reach when they are set.
+void fill_columns(const ColumnJob<std::uint16_t>& job);
+void fill_columns(const ColumnJob<std::int32_t>& job);
 
 }  // namespace bn::noise

@@ -49,6 +49,12 @@ GaussianKernel::GaussianKernel(double sigma_px, int cutoff_px) {
   }
 }
 
+int PixelKernel::sight() const {
+  int d = 0;
+  while (weight(d + 1, 0) >= kStartEnergyLimit && weight(0, d + 1) >= kStartEnergyLimit) ++d;
+  return d;
+}
+
 std::int32_t PixelKernel::weight(int x, int y) const {
   if (std::abs(x) > radius_ || std::abs(y) > radius_) return 0;
   return weights_[static_cast<std::size_t>((y + radius_) * (2 * radius_ + 1) + x + radius_)];

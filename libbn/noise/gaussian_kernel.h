@@ -26,6 +26,9 @@ class PixelKernel {
  public:
   /// The largest |x| or |y| of a weight that is not zero.
   int radius() const { return radius_; }
+  /// How far pixels see each other along the axes: the largest distance whose weight is no less than the
+  /// start energies' limit.
+  int sight() const;
   /// The weight at a distance; zero outside -radius()..radius().
   std::int32_t weight(int x, int y) const;
   /// The sum of all weights: the energy that all set pixels together give each pixel.

@@ -21,7 +21,8 @@ class RowLocks {
   RowLocks(int rows, int reach, bool exclusive)
       : rows_(rows), reach_(reach), taken_(static_cast<std::size_t>(exclusive ? 1 : rows / kRows)) {}
 
-  /// What one thread holds. It never waits: what it cannot get, another thread is working on.
+  /// What one thread holds. What it cannot get, another thread is working on; it never waits for that while
+  /// it holds anything, so no two threads wait for each other.
   class Holder {
    public:
     explicit Holder(RowLocks& locks) : locks_(locks) {}
@@ -56,7 +57,7 @@ class RowLocks {
       return true;
     }
 
-    /// move_to(), tried again for as long as another thread may need to move on.
+    /// move_to(), tried again for about as long as another thread needs to move on.
     bool wait_for(int row) {
       constexpr int kTries = 200;
       for (int i = 0; i < kTries; ++i) {

@@ -9,8 +9,8 @@
 //   2. From a copy of that pattern the tightest cluster (the set pixel of greatest energy) is taken
 //      away until none is left; the pixel taken away last has rank 0.
 //   3. The pattern itself goes on as in 1 until all pixels are set; they get the ranks that follow.
-// With an initial density of 0 phase 3 goes on from the first points of sparse_ends.h, the last holes are
-// filled in the order that is defined there, and masks of small_mask.h are made as the paper has it.
+// With an initial density of 0 phase 3 goes on from the first points of first_points.h, the last holes are
+// filled in the order of last_holes.h, and masks of small_mask.h are made as the paper has it.
 //
 // What differs from the paper. Ulichney starts phase 1 from random points and swaps the tightest
 // cluster with the largest void until that changes nothing. A pattern made of largest voids only is
@@ -36,8 +36,9 @@
 #include "core/refuse.h"
 #include "noise/fill_tile.h"
 #include "noise/filling_order.h"
+#include "noise/first_points.h"
+#include "noise/last_holes.h"
 #include "noise/small_mask.h"
-#include "noise/sparse_ends.h"
 #include "noise/start_energies.h"
 #include "noise/void_order.h"
 

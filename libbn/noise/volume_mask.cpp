@@ -5,10 +5,9 @@
 // another, always the unset one of least energy, the lowest index (slice * height + y) * width + x of equal
 // ones, until all are set.
 //   Ranks are their places in the order of (energy when set, random number, index). That is the order in
-//   which
-// they were set, but for voxels that were set at equal energies: those do not see each other, so nothing
-// decides between them, and the lowest index first would fill the volume from one corner in the sparsest
-// patterns.
+//   which they
+// were set, but for voxels that were set at equal energies: those do not see each other, so nothing decides
+// between them, and the lowest index first would fill the volume from one corner in the sparsest patterns.
 //   tests/noise/reference_volume_mask.h says the same in 60 lines of plain C++; the product equals it bit for
 //   bit.
 //

@@ -51,11 +51,17 @@ std::optional<Grid<std::uint32_t>> fill(const VolumeWeights& weights, std::uint6
   parallel_for(execution, threads, [&](std::int64_t i) {
     const int first = static_cast<int>(sides.y * i / threads);
     const int end = static_cast<int>(sides.y * (i + 1) / threads);
-    fill_columns(field, kernel, {first, end - first}, step, locks, energies.data(), [&](std::int64_t now) {
-      throw_if_stopped(execution);
-      left -= now;
-      meter.advance(static_cast<std::uint64_t>(now));
-    });
+    fill_columns(ColumnJob<Lane>{.field = field,
+                                 .kernel = kernel,
+                                 .rows = {first, end - first},
+                                 .step = step,
+                                 .locks = locks,
+                                 .energy_when_set = energies.data(),
+                                 .progress = [&](std::int64_t now) {
+                                   throw_if_stopped(execution);
+                                   left -= now;
+                                   meter.advance(static_cast<std::uint64_t>(now));
+                                 }});
   });
   if (left > 0) return std::nullopt;
   return energies;

@@ -115,8 +115,8 @@ TEST(Quality, SparsePatternsAreSpreadEvenly) {
       last_but_one += low_power(ranks, kCount - 2 * kLevel, kCount) / 8.0;
       last += low_power(ranks, kCount - kLevel, kCount) / 8.0;
     }
-    EXPECT_LE(first, sigma == 1.9 ? 0.04 : 0.06) << "sigma " << sigma;
-    EXPECT_LE(second, sigma == 1.9 ? 0.05 : 0.06) << "sigma " << sigma;
+    EXPECT_LE(first, sigma == 1.9 ? 0.03 : 0.06) << "sigma " << sigma;
+    EXPECT_LE(second, sigma == 1.9 ? 0.045 : 0.06) << "sigma " << sigma;
     EXPECT_LE(last_but_one, 0.08) << "sigma " << sigma;
     EXPECT_LE(last, 0.10) << "sigma " << sigma;
   }

@@ -13,8 +13,9 @@
 #include "bn/noise.h"
 #include "bn/random.h"
 #include "core/reproducible_math.h"
+#include "noise/first_points.h"
 #include "noise/gaussian_kernel.h"
-#include "noise/sparse_ends.h"
+#include "noise/last_holes.h"
 
 namespace bn {
 
@@ -83,7 +84,7 @@ inline std::int64_t squared_distance(Extent size, std::size_t a, std::size_t b) 
   return dx * dx + dy * dy;
 }
 
-/// The first `count` points, those of a mask of half the size moved to its pixels (sparse_ends.h).
+/// The first `count` points, those of a mask of half the size moved to its pixels (first_points.h).
 inline std::vector<std::size_t> reference_first_points(Extent size, std::int64_t count, std::uint64_t seed,
                                                        std::uint32_t level = 1) {
   const Extent half{std::max(size.width / 2, 1), std::max(size.height / 2, 1)};
