@@ -1,28 +1,15 @@
 // Any bytes behind the signature of an EXR, one part or several: the reader answers with an image or a
 // bn::Error, within its memory limit; and half and float images that came out, volumes among them, go through
 // EXR again unchanged.
-#include <cstdio>
-#include <cstdlib>
 
 #include "bn/error.h"
 #include "bn/texture.h"
+#include "promise.h"
 #include "texture/codec.h"
 #include "texture/image.h"
 
-namespace {
-
 using namespace bn;
 using namespace bn::texture;
-
-const Execution kExecution{.memory_limit_bytes = 64 << 20};
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes = {0x76, 0x2f, 0x31, 0x01};

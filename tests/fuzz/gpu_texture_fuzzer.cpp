@@ -1,11 +1,10 @@
 // Any bytes behind the signature of KTX2 or DDS: the reader answers with an image or a bn::Error, within its
 // memory limit; and an image that came out goes through both formats unchanged. The first byte chooses the
 // format.
-#include <cstdio>
-#include <cstdlib>
 #include <string_view>
 
 #include "bn/error.h"
+#include "promise.h"
 #include "texture/codec.h"
 #include "texture/gpu_format.h"
 #include "texture/image.h"
@@ -14,14 +13,6 @@ namespace {
 
 using namespace bn;
 using namespace bn::texture;
-
-const Execution kExecution{.memory_limit_bytes = 64 << 20};
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 void check_round_trip(const char* name, const Image& image, SliceKind slices) {
   const Bytes bytes = encode(name, image, {}, slices);

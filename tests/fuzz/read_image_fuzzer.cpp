@@ -1,12 +1,12 @@
 // Any bytes: the reader answers with an image or a bn::Error, within its memory limit; and an image
 // that came out goes through our own formats unchanged. With BN_FUZZ_NAME=x.tga in the environment the
 // bytes are those of a format that is known by its extension.
-#include <cstdio>
 #include <cstdlib>
 #include <optional>
 
 #include "bn/error.h"
 #include "bn/texture.h"
+#include "promise.h"
 #include "texture/codec.h"
 #include "texture/image.h"
 #include "texture/metadata.h"
@@ -15,14 +15,6 @@ namespace {
 
 using namespace bn;
 using namespace bn::texture;
-
-const Execution kExecution{.memory_limit_bytes = 64 << 20};
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 void check_round_trip(const char* name, const Image& image, const Metadata& metadata) {
   const Bytes bytes = encode(name, image, metadata);

@@ -7,16 +7,11 @@
 #include "bn/anneal.h"
 #include "bn/bake.h"
 #include "bn/error.h"
+#include "promise.h"
 
 namespace {
 
 using namespace bn;
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 void check_inside(const std::string& path) {
   const std::filesystem::path normal = std::filesystem::path("out") / path;

@@ -7,18 +7,13 @@
 
 #include "bn/error.h"
 #include "bn/render.h"
+#include "promise.h"
 #include "render/scene.h"
 
 namespace {
 
 using namespace bn;
 using namespace bn::render;
-
-void require(bool condition, const char* what) {
-  if (condition) return;
-  std::fprintf(stderr, "broken promise: %s\n", what);
-  std::abort();
-}
 
 bool finite(Vector v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 

@@ -37,22 +37,28 @@ inline void write_mask(const std::filesystem::path& path, int side, std::uint64_
   write_image(path, mask_image(side, seed), mask_metadata());
 }
 
-/// set/mask.png, set/atlas.png (nine motions) and a manifest, as a bake leaves them.
-inline void write_set(const std::filesystem::path& folder) {
-  std::filesystem::create_directories(folder / "set");
-  const Image mask = mask_image(32, 1);
-  write_image(folder / "set/mask.png", mask, mask_metadata());
-  const RetargetOptions options{.step = {24, 19}, .radius = 4};
+/// Of tiles by the exact solver, without their source.
+inline Metadata retarget_metadata(const char* kind, const RetargetOptions& options) {
   Metadata metadata;
   metadata.algorithm = "retarget-exact";
   metadata.algorithm_version = 1;
-  metadata.kind = "retarget-atlas";
+  metadata.kind = kind;
   metadata.facts.add("step", options.step);
   metadata.facts.add("radius", options.radius);
   metadata.facts.add("reach", "chebyshev");
   metadata.facts.add("metric", "l1");
   metadata.facts.add("wrap", Value(true));
   metadata.facts.add("form", "scatter");
+  return metadata;
+}
+
+/// set/mask.png, set/atlas.png (nine motions) and a manifest, as a bake leaves them.
+inline void write_set(const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder / "set");
+  const Image mask = mask_image(32, 1);
+  write_image(folder / "set/mask.png", mask, mask_metadata());
+  const RetargetOptions options{.step = {24, 19}, .radius = 4};
+  Metadata metadata = retarget_metadata("retarget-atlas", options);
   metadata.facts.add("source", "mask.png");
   metadata.facts.add("source_channel", 0);
   metadata.facts.add("source_hash", pixel_hash(mask));

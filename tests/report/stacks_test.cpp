@@ -34,7 +34,7 @@ class StackReport : public testing::Test {
       std::copy_n(levels.slice(z % kSlices).begin(), one.count(), one.begin());
       return one;
     };
-    Metadata metadata = retarget_metadata(options);
+    Metadata metadata = retarget_metadata("retarget-tile", options);
     metadata.facts.add("source", "slice.ktx2");
     metadata.facts.add("source_channel", 0);
     metadata.facts.add("source_hash", pixel_hash(stack_));
@@ -45,20 +45,6 @@ class StackReport : public testing::Test {
       metadata.tiles.push_back({{0, 0}, tile.start_energy, tile.energy, tile.lower_bound});
     }
     return {stack_slices(images), metadata};
-  }
-
-  static Metadata retarget_metadata(const RetargetOptions& options) {
-    Metadata metadata;
-    metadata.algorithm = "retarget-exact";
-    metadata.algorithm_version = 1;
-    metadata.kind = "retarget-tile";
-    metadata.facts.add("step", options.step);
-    metadata.facts.add("radius", options.radius);
-    metadata.facts.add("reach", "chebyshev");
-    metadata.facts.add("metric", "l1");
-    metadata.facts.add("wrap", Value(true));
-    metadata.facts.add("form", "scatter");
-    return metadata;
   }
 
   ReportSummary report(std::vector<std::filesystem::path> inputs) {
@@ -167,7 +153,7 @@ TEST_F(StackReport, ASetBetweenTwoMasksIsRecomputedWithBoth) {
   const auto from = levels_of_channel(a, 0).value, to = levels_of_channel(b, 0).value;
   const RetargetOptions options{.radius = 3};
   const RetargetTile tile = solve_retarget({from, to}, options);
-  Metadata metadata = retarget_metadata(options);
+  Metadata metadata = retarget_metadata("retarget-tile", options);
   metadata.facts.add("source", "a.png");
   metadata.facts.add("source_channel", 0);
   metadata.facts.add("source_hash", pixel_hash(a));
@@ -190,7 +176,7 @@ TEST_F(StackReport, AnotherEnergyIsNotHeldAgainstAPlainOne) {
   const auto levels = levels_of_channel(a, 0).value;
   const RetargetOptions options{.step = {24, 19}, .radius = 3};
   const RetargetTile tile = solve_retarget(levels, options);
-  Metadata metadata = retarget_metadata(options);
+  Metadata metadata = retarget_metadata("retarget-tile", options);
   metadata.algorithm = "retarget-anneal";
   metadata.facts.add("source", "a.png");
   metadata.facts.add("source_channel", 0);
