@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "bn/error.h"
+#include "bn/report.h"
 #include "tools/channel.h"
 
 namespace bn::tools {
@@ -19,6 +20,7 @@ struct StackedTexture {
   Shape shape;
   std::vector<ChannelSamples> channels;
   std::vector<std::string> channel_names;
+  Check natural_check;
 
   std::string label(int channel) const { return channel_label(channel, channel_names); }
 };
@@ -45,7 +47,8 @@ std::optional<StackedTexture> SpectrumAnalyst::read_texture(const SpectrumInput&
   StackedTexture texture{.name = input.paths.front().string(),
                          .shape = volume.image.shape(),
                          .channels = {},
-                         .channel_names = volume.channel_names};
+                         .channel_names = volume.channel_names,
+                         .natural_check = natural_check(volume.image.shape(), volume.metadata)};
   if (texture.shape.depth > 1) texture.name += fmt::format(" ({} slices)", texture.shape.depth);
   for (int c = 0; c < volume.image.channels; ++c)
     texture.channels.push_back(samples_of_channel(volume.image, c));
@@ -94,6 +97,7 @@ void SpectrumAnalyst::finish() {
 
 void SpectrumAnalyst::look_at(const StackedTexture& texture) {
   const auto count = static_cast<int>(texture.channels.size());
+  natural_check_ = texture.natural_check;
   if (settings_.check == Check::stbn && texture.shape.depth == 1) {
     throw Error({.code = ErrorCode::invalid_input,
                  .what = "one picture, and stbn judges the slices of a volume",
@@ -163,7 +167,7 @@ void SpectrumAnalyst::judge(SpectrumRow& row, const Samples& samples, const Anal
     row.judgement = judge_texture(samples, analysis, *settings_.check, session_.execution);
     row.grade = row.judgement->grade;
   } else {
-    row.grade = grade(row.figures, row.figures.shape.depth > 1 ? Check::stbn : Check::blue);
+    row.grade = grade(row.figures, natural_check_);
   }
 }
 

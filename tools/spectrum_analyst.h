@@ -64,6 +64,7 @@ class SpectrumAnalyst {
   Session& session_;
   SpectrumResult& result_;
   std::vector<Print> prints_;
+  Check natural_check_ = Check::blue;  // of the texture looked at last
   std::optional<PowerSpectrum> average_;
   bool one_size_ = true;
   double worst_deviation_ = 0.0, worst_distance_ = std::numeric_limits<double>::quiet_NaN();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "bn/report.h"
 #include "ui/app.h"
 #include "ui/recipe_text.h"
 #include "ui/texture_view.h"
@@ -181,10 +182,10 @@ void TextureView::draw_figures() {
   if (!analysis_) return note(analysing_.running() ? "Transforming …" : "");
   const FiguresOfMerit& figures = analysis_->figures;
   std::vector<JudgedFigure> judged;
-  if (thresholds_ == 2 || (thresholds_ == 0 && figures.shape.depth == 1))
-    judged = judge(figures, Check::blue);
+  if (thresholds_ == 0) judged = judge(figures, natural_check(figures.shape, texture_->metadata));
+  if (thresholds_ == 2) judged = judge(figures, Check::blue);
   if (thresholds_ == 3) judged = judge(figures, Check::white);
-  if (thresholds_ == 4 || (thresholds_ == 0 && figures.shape.depth > 1)) judged = judge(figures, Check::stbn);
+  if (thresholds_ == 4) judged = judge(figures, Check::stbn);
   if (!judged.empty()) {
     const bool all =
         std::all_of(judged.begin(), judged.end(), [](const auto& figure) { return figure.passed; });

@@ -26,24 +26,17 @@ bool is_a_picture(const Texture& texture, const Judgement& judgement) {
                      [](const Finding& finding) { return finding.cause == Cause::picture; });
 }
 
-/// A volume whose preset is for the filtered picture alone: its slices are blue noise, a pixel's series is
-/// not meant to be.
-bool is_for_a_filter(const Texture& texture) {
-  return texture.metadata && texture.metadata->kind == "spatiotemporal-mask" &&
-         texture.metadata->recipe.find("\npreset = \"filtered\"\n") != std::string::npos;
-}
-
 }  // namespace
 
 Verdict verdict_of(const Texture& texture, const Analysis& analysis, const Execution& execution) {
   const auto& [values, low, high] = texture.samples;
   Verdict verdict;
   Judgement& judgement = verdict.judgement;
-  judgement = judge_texture({values, texture.shape, low, std::max(high, low + 1e-300)}, analysis,
-                            texture.shape.depth > 1 && !is_for_a_filter(texture) ? Check::stbn : Check::blue,
-                            execution);
+  const Check check = natural_check(texture.shape, texture.metadata);
+  judgement =
+      judge_texture({values, texture.shape, low, std::max(high, low + 1e-300)}, analysis, check, execution);
   verdict.reasons = judgement.reasons;
-  if (texture.shape.depth > 1 && is_for_a_filter(texture)) {
+  if (texture.shape.depth > 1 && check == Check::blue) {
     verdict.reasons.emplace_back(
         "judged by its slices: the preset filtered is for the blurred and averaged picture, not for one "
         "pixel's series");
@@ -156,3 +149,9 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict, c
 }
 
 }  // namespace bn::report
+
+bn::Check bn::natural_check(Shape shape, const std::optional<Metadata>& metadata) {
+  const bool for_a_filter = metadata && metadata->kind == "spatiotemporal-mask" &&
+                            metadata->facts.get<std::string>("preset") == "filtered";
+  return shape.depth > 1 && !for_a_filter ? Check::stbn : Check::blue;
+}

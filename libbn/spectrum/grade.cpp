@@ -42,6 +42,9 @@ constexpr std::array<BestKnown, 8> kBestKnown{{
 constexpr std::array<double, 4> kBestSlices{1.1e-3, 2.5e-3, 0.011, 0.073};
 constexpr double kBestInTime = 0.014, kBestSlow = 0.11;
 
+/// Slices of the best known volumes that are made for the blurred and averaged picture alone.
+constexpr std::array<double, 4> kBestFilteredSlices{4.5e-4, 1.05e-3, 5.0e-3, 0.039};
+
 /// The anisotropy that a check allows, beyond the background of an average, and how far beyond it scores 0.
 constexpr double kAnisotropyToZero_db = 10.0;
 
@@ -78,7 +81,9 @@ std::array<double, 4> best_known_bands(Shape shape) {
 Grade grade(const FiguresOfMerit& figures, Check kind) {
   Grade result{.score = kNaN, .weakest = {}, .parts = {}};
   if (kind == Check::white) return result;
-  const std::array<double, 4> best = kind == Check::stbn ? kBestSlices : best_known_bands(figures.shape);
+  const std::array<double, 4> best = kind == Check::stbn       ? kBestSlices
+                                     : figures.shape.depth > 1 ? kBestFilteredSlices
+                                                               : best_known_bands(figures.shape);
   for (std::size_t b = 0; b < best.size(); ++b) {
     add_power(fmt::format("bands[{}]", b), figures.bands.mean[b], best[b], result);
   }

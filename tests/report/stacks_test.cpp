@@ -111,7 +111,7 @@ TEST_F(StackReport, AFileOfSlicesIsAVolumeWithTheWorstNamed) {
 }
 
 TEST_F(StackReport, APresetForAFilterIsJudgedByItsSlices) {
-  metadata_.recipe = "[[spatiotemporal]]\npreset = \"filtered\"\n";
+  metadata_.facts.add("preset", "filtered");
   bn::write_volume(folder_ / "stack.ktx2", stack_, metadata_);
   report({folder_ / "stack.ktx2"});
   EXPECT_NE(page().find("judged by its slices"), std::string::npos);

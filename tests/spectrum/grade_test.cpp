@@ -6,6 +6,7 @@
 
 #include "bn/judgement.h"
 #include "bn/noise.h"
+#include "bn/spatiotemporal.h"
 #include "direct_dft.h"
 #include "raised_floor.h"
 
@@ -42,6 +43,14 @@ TEST(Grade, ReferenceIsWhatOurMasksRead) {
       EXPECT_LT(best[b], 3.0 * mean[b]) << side << " " << b;  // and it is no loose bound
     }
   }
+}
+
+TEST(Grade, SlicesForAFilterAreHeldAgainstTheBestOfTheirKind) {
+  const auto rank = spatiotemporal_mask({.size = {64, 64, 16}, .preset = SpatiotemporalPreset::filtered});
+  const std::vector<double> values(rank.begin(), rank.end());
+  const auto figures = analyse(values, rank.shape(), 0.0, 64.0 * 64.0).figures;
+  EXPECT_GE(grade(figures, Check::blue).score, 97.0);
+  EXPECT_LT(grade(figures, Check::stbn).score, 50.0) << "a pixel's series is white";
 }
 
 TEST(Grade, ReferenceFallsWithTheSize) {

@@ -159,6 +159,7 @@ Metadata SpatiotemporalEntry::metadata(std::size_t, const std::vector<Input>&,
   metadata.algorithm_version = kVolumeMaskVersion;
   metadata.kind = "spatiotemporal-mask";
   metadata.facts.add("seed", mask.seed);
+  metadata.facts.add("preset", name_of(mask.preset));
   metadata.facts.add("slices", mask.size.depth);
   metadata.facts.add("ranks", mask.ranks == RankScope::slice ? "slice" : "volume");
   return metadata;

@@ -6,13 +6,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bn/execution.h"
+#include "bn/grid.h"
+#include "bn/judgement.h"
+#include "bn/texture.h"
 
 namespace bn {
+
+/// How a texture is judged where nobody says: a picture as a blue-noise mask, a volume as one that is blue in
+/// space and time. But a volume of the preset `filtered` is made for the blurred and averaged picture, and no
+/// series of one pixel is meant to be blue: its slices are judged as masks.
+Check natural_check(Shape shape, const std::optional<Metadata>& metadata);
 
 struct ReportOptions {
   /// Files, and folders that are searched for textures (in name order, links to folders not followed). A
