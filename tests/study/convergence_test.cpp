@@ -34,7 +34,7 @@ TEST(Convergence, WhiteNoiseHasItsClosedForm) {
   for (const double power : series_power(white_noise({64, 64, 16}))) EXPECT_NEAR(power, 1.0, 0.06);
 }
 
-TEST(Convergence, BlursArePairedWithTheirTaps) {
+TEST(Convergence, TapsAreThoseOfTheirFilters) {
   EXPECT_EQ(FrameFilter::binomial_taps(2), (std::vector<double>{0.25, 0.5, 0.25}));
   EXPECT_EQ(FrameFilter::box_taps(4), std::vector<double>(4, 0.25));
   // Without a blur and with alpha 1 the pictures themselves are left: the variance of tau (1 - tau).
@@ -73,8 +73,10 @@ TEST_P(Presets, ReachTheirFigures) {
   EXPECT_LE(pixel, GetParam().pixel_error_64);
   // From any frame on: a third of the way around.
   const std::vector<double> later = filtered_error(samples, {}, 32, 21);
-  EXPECT_NEAR(later[31] / error[31], 1.0, 0.03);
-  EXPECT_NEAR(later[0] / error[0], 1.0, 0.03);
+  std::cout << "from frame 21 on, against frame 0: " << later[0] / error[0] << " at first, "
+            << later[31] / error[31] << " after 32 frames\n";
+  EXPECT_NEAR(later[0] / error[0], 1.0, 0.02);
+  EXPECT_NEAR(later[31] / error[31], 1.0, 0.02);
 }
 
 TEST(Masks2D, AreMadeForTheirBlur) {
