@@ -85,9 +85,9 @@ std::vector<double> FrameFilter::binomial_taps(int order) {
   return of_sum_one(std::move(taps));
 }
 
-Samples samples_of_ranks(const Grid<std::uint32_t>& ranks, int levels) {
+Grid<float> samples_of_ranks(const Grid<std::uint32_t>& ranks, int levels) {
   const auto in_slice = static_cast<std::uint64_t>(ranks.size().area());
-  Samples samples(ranks.shape());
+  Grid<float> samples(ranks.shape());
   for (std::size_t i = 0; i < ranks.count(); ++i) {
     const auto level = static_cast<double>(ranks[i] * static_cast<std::uint64_t>(levels) / in_slice);
     samples[i] = static_cast<float>((level + 0.5) / levels);
@@ -95,8 +95,8 @@ Samples samples_of_ranks(const Grid<std::uint32_t>& ranks, int levels) {
   return samples;
 }
 
-std::vector<double> filtered_error(const Samples& samples, const FrameFilter& filter, int frames, int start,
-                                   const Execution& execution) {
+std::vector<double> filtered_error(const Grid<float>& samples, const FrameFilter& filter, int frames,
+                                   int start, const Execution& execution) {
   const Extent size = samples.size();
   std::vector<std::vector<double>> of_value(kFilteredValues);
   parallel_for(execution, kFilteredValues, [&](std::int64_t value) {
@@ -123,7 +123,7 @@ std::vector<double> filtered_error(const Samples& samples, const FrameFilter& fi
   return error;
 }
 
-std::vector<double> pixel_error(const Samples& samples) {
+std::vector<double> pixel_error(const Grid<float>& samples) {
   std::vector<double> squares(static_cast<std::size_t>(samples.depth()));
   for (int value = 0; value < kPixelValues; ++value) {
     const double tau = (value + 0.5) / kPixelValues;
@@ -143,7 +143,7 @@ std::vector<double> pixel_error(const Samples& samples) {
   return squares;
 }
 
-std::array<double, 5> series_power(const Samples& samples) {
+std::array<double, 5> series_power(const Grid<float>& samples) {
   std::array<double, 5> power{};
   const int depth = samples.depth();
   const auto pixels = static_cast<std::size_t>(samples.size().area());

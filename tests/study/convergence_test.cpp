@@ -15,8 +15,8 @@
 namespace bn {
 namespace {
 
-Samples white_noise(Shape shape) {
-  Samples samples(shape);
+Grid<float> white_noise(Shape shape) {
+  Grid<float> samples(shape);
   for (std::size_t i = 0; i < samples.count(); ++i)
     samples[i] = static_cast<float>(static_cast<double>(random_bits(1, 7, i) >> 11) * 0x1p-53);
   return samples;
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST_P(Presets, ReachTheirFigures) {
-  const Samples samples = samples_of_ranks(spatiotemporal_mask({.preset = GetParam().preset}));
+  const Grid<float> samples = samples_of_ranks(spatiotemporal_mask({.preset = GetParam().preset}));
   const std::vector<double> error = filtered_error(samples, {}, 64);
   std::cout << "E at 1, 16, 32, 64 frames:";
   for (std::size_t i = 0; i < 4; ++i) {

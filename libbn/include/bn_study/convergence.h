@@ -3,6 +3,9 @@
 // A renderer compares a value with the mask's sample of the pixel and frame, and gets 0 or 1: the picture [v
 // < tau]. It blurs each frame and averages frames exponentially, or averages each pixel's frames alone. What
 // is left of the error is measured over all values tau, spread evenly over (0, 1).
+//
+// Headers of bn_study are for the tools and tests of this repository. They are not installed and promise
+// nothing about the next version.
 
 #pragma once
 
@@ -25,25 +28,25 @@ struct FrameFilter {
   static std::vector<double> binomial_taps(int order);  ///< 2: [1 2 1] / 4
 };
 
-/// Samples in [0, 1): slice t is frame t.
-using Samples = Grid<float>;
+// Samples are in [0, 1); slice t is frame t.
 
-/// The middle of each rank's share: (rank + 1/2) / N, rounded down to `levels` levels first.
-Samples samples_of_ranks(const Grid<std::uint32_t>& ranks, int levels = 256);
+/// The middle of each rank's level: (floor(rank levels / N) + 1/2) / levels, N the pixels of a slice.
+Grid<float> samples_of_ranks(const Grid<std::uint32_t>& ranks, int levels = 256);
 
 /// E(n) at index n - 1: the root of the mean, over 64 values tau, of the variance over pixels of what is left
 /// after n frames. The average starts with the first frame, which is `start` slices after slice 0; slices
 /// follow each other around. White noise and a Gaussian: sqrt(1/6) / (2 sigma sqrt(pi)) at first, times
-/// sqrt(alpha / (2 - alpha)) late. Threads: one value tau each; the sums have a written order. Cost: 64 taps
-/// a sample and axis.
-std::vector<double> filtered_error(const Samples& samples, const FrameFilter& filter, int frames,
+/// sqrt(alpha / (2 - alpha)) late.
+/// `frames` at least 1. Threads: one value tau each; sums are added in the order of the values. Cost: 128
+/// times the number of taps, a sample.
+std::vector<double> filtered_error(const Grid<float>& samples, const FrameFilter& filter, int frames,
                                    int start = 0, const Execution& execution = {});
 
 /// At index n - 1: the root mean square, over pixels and 32 values tau, of the error of the mean of n frames.
-std::vector<double> pixel_error(const Samples& samples);
+std::vector<double> pixel_error(const Grid<float>& samples);
 
 /// Power of pixels' series at 0, 1 ... 4 cycles a stack, against white noise, which reads 1; mean over
 /// pixels.
-std::array<double, 5> series_power(const Samples& samples);
+std::array<double, 5> series_power(const Grid<float>& samples);
 
 }  // namespace bn
