@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -13,10 +14,15 @@ namespace bn::noise {
 namespace {
 
 /// Holes that see each other through a Gaussian of half their mean distance.
+//
+// One after another the hole of greatest energy is filled, the first of equal ones, and its neighbours'
+// energies fall. As in void_and_cluster.cpp a hole that comes first of all it sees may be filled at once, and
+// the order of (energy when filled, number) is that of filling one at a time. So holes are filled where the
+// last ones were, in the cache.
 class Holes {
  public:
   Holes(Extent size, const std::vector<Pixel>& holes, const Execution& execution)
-      : energy_(holes.size()), next_(holes.size()) {
+      : energy_(holes.size()), when_filled_(holes.size()) {
     // The Gaussian of half the mean distance, sqrt(area / holes), is exp(-t) at t = 2 holes d^2 / area.
     const double steps =
         2.0 * static_cast<double>(holes.size()) * kStepsOfT / static_cast<double>(size.area());
@@ -25,8 +31,7 @@ class Holes {
     for (const Pixel& hole : holes) grid.add(hole);
     const auto most_squared = static_cast<std::int64_t>(reach_squared) + 1;
     const std::vector<std::int32_t>& weights = falloff();
-    seen_.reserve(24 * holes.size());
-    int most = 0;
+    seen_.reserve(16 * holes.size());
     for (std::size_t i = 0; i < holes.size(); ++i) {
       if (i % 4096 == 0) throw_if_stopped(execution);
       first_.push_back(seen_.size());
@@ -34,53 +39,41 @@ class Holes {
         if (squared > most_squared) return;
         const auto step = static_cast<std::size_t>(static_cast<double>(squared) * steps);
         if (step >= weights.size()) return;
-        seen_.push_back({other, weights[step]});
+        seen_.push_back({static_cast<std::uint32_t>(other), weights[step]});
         energy_[i] += weights[step];
       });
-      most = std::max(most, energy_[i]);
     }
     first_.push_back(seen_.size());
-    last_of_.assign(static_cast<std::size_t>(most) + 1, kNone);
-    for (int i = static_cast<int>(holes.size()) - 1; i >= 0; --i) enlist(i);
-    greatest_ = most;
   }
 
-  /// Fills the hole of greatest energy, the first of equal ones, and returns its number.
-  std::size_t fill_tightest() {
-    int tightest = kNone;
-    while (tightest == kNone) {
-      while (last_of_[static_cast<std::size_t>(greatest_)] == kNone) --greatest_;
-      // Energies fall, so those in the list may belong into others by now.
-      for (int i = std::exchange(last_of_[static_cast<std::size_t>(greatest_)], kNone); i != kNone;) {
-        const int next = next_[static_cast<std::size_t>(i)];
-        if (energy_[static_cast<std::size_t>(i)] < greatest_ || (tightest != kNone && tightest < i)) {
-          enlist(i);
-        } else {
-          if (tightest != kNone) enlist(tightest);
-          tightest = i;
+  /// The numbers of all holes in the order in which they are filled.
+  std::vector<std::uint32_t> fill(const Execution& execution) {
+    std::vector<std::uint32_t> way;
+    for (std::uint32_t start = 0; start < energy_.size(); ++start) {
+      if (start % 4096 == 0) throw_if_stopped(execution);
+      // To the hole that comes first of what is seen, and on from there; energies grow along the way.
+      way.assign(1, start);
+      while (!way.empty()) {
+        const std::uint32_t first = first_seen(way.back());
+        if (first != way.back()) {
+          way.push_back(first);
+          continue;
         }
-        i = next;
+        if (energy_[first] >= 0) fill(first);
+        way.pop_back();
       }
     }
-    const auto filled = static_cast<std::size_t>(tightest);
-    for (std::size_t i = first_[filled]; i < first_[filled + 1]; ++i) {
-      energy_[static_cast<std::size_t>(seen_[i].hole)] -= seen_[i].weight;
-    }
-    energy_[filled] = kFilled;
-    return filled;
+    return numbers_by_energy();
   }
 
-  bool is_filled(std::size_t hole) const { return energy_[hole] < 0; }
-
  private:
-  static constexpr int kNone = -1;
   static constexpr std::int32_t kFilled = INT32_MIN / 2;  // and stays negative when more is taken away
   static constexpr int kStepsOfT = 32;
   static constexpr int kMostT = 8;
   static constexpr int kPeak = 256;
 
   struct Seen {
-    int hole;
+    std::uint32_t hole;
     std::int32_t weight;
   };
 
@@ -95,17 +88,45 @@ class Holes {
     return values;
   }
 
-  void enlist(int hole) {
-    const auto energy = static_cast<std::size_t>(energy_[static_cast<std::size_t>(hole)]);
-    next_[static_cast<std::size_t>(hole)] = std::exchange(last_of_[energy], hole);
+  std::span<const Seen> seen(std::uint32_t hole) const {
+    return std::span(seen_).subspan(first_[hole], first_[hole + 1] - first_[hole]);
+  }
+
+  std::uint32_t first_seen(std::uint32_t hole) const {
+    std::uint32_t first = hole;
+    if (energy_[hole] < 0) return first;
+    for (const auto& [other, weight] : seen(hole)) {
+      if (energy_[other] > energy_[first] || (energy_[other] == energy_[first] && other < first))
+        first = other;
+    }
+    return first;
+  }
+
+  void fill(std::uint32_t hole) {
+    when_filled_[hole] = energy_[hole];
+    for (const auto& [other, weight] : seen(hole)) energy_[other] -= weight;
+    energy_[hole] = kFilled;
+  }
+
+  /// Greatest energy first, the lower number of equal ones; by counting.
+  std::vector<std::uint32_t> numbers_by_energy() const {
+    const std::int32_t most = *std::max_element(when_filled_.begin(), when_filled_.end());
+    std::vector<std::uint32_t> place(static_cast<std::size_t>(most) + 1);
+    const auto at = [&](std::int32_t energy) -> std::uint32_t& {
+      return place[static_cast<std::size_t>(most - energy)];
+    };
+    for (const std::int32_t energy : when_filled_) ++at(energy);
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : place) sum += std::exchange(count, sum);
+    std::vector<std::uint32_t> numbers(when_filled_.size());
+    for (std::uint32_t i = 0; i < numbers.size(); ++i) numbers[at(when_filled_[i])++] = i;
+    return numbers;
   }
 
   std::vector<std::int32_t> energy_;
+  std::vector<std::int32_t> when_filled_;
   std::vector<std::size_t> first_;  // of what each hole sees, in seen_
-  std::vector<Seen> seen_;
-  std::vector<int> last_of_;  // lists of the unfilled holes by energy, or by one that they had
-  std::vector<int> next_;
-  int greatest_ = 0;
+  std::vector<Seen> seen_;          // each hole sees itself too
 };
 
 }  // namespace
@@ -124,19 +145,15 @@ void reorder_last_holes(Grid<std::uint32_t>& ranks, const PixelKernel& kernel, c
       if (ranks(x, y) >= rank) holes.push_back({x, y});
     }
   }
+  // Until half of them are filled the kernel stays the same.
   while (!holes.empty()) {
-    Holes pattern(size, holes, execution);
-    const std::size_t half = holes.size() / 2;
-    for (std::size_t left = holes.size(); left > half; --left) {
-      if (left % 4096 == 0) throw_if_stopped(execution);
-      const Pixel filled = holes[pattern.fill_tightest()];
-      ranks(filled.x, filled.y) = rank++;
-    }
-    std::vector<Pixel> still;
-    for (std::size_t i = 0; i < holes.size(); ++i) {
-      if (!pattern.is_filled(i)) still.push_back(holes[i]);
-    }
-    holes = std::move(still);
+    std::vector<std::uint32_t> order = Holes(size, holes, execution).fill(execution);
+    const std::size_t half = (order.size() + 1) / 2;
+    for (std::size_t i = 0; i < half; ++i) ranks(holes[order[i]].x, holes[order[i]].y) = rank++;
+    order.erase(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(half));
+    std::sort(order.begin(), order.end());
+    for (std::size_t i = 0; i < order.size(); ++i) holes[i] = holes[order[i]];
+    holes.resize(order.size());
   }
 }
 
