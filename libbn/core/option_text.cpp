@@ -23,7 +23,7 @@ std::string decimal(double value) {
   return text;
 }
 
-std::string quoted(std::string_view text) {
+std::string toml_string(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') result += '\\';
@@ -193,7 +193,7 @@ std::string flag_of(const Option& option) {
 }
 
 std::string allowed_text(const Option& option) {
-  const std::string unset = option.unset_word.empty() ? "" : quoted(option.unset_word) + ", or ";
+  const std::string unset = option.unset_word.empty() ? "" : toml_string(option.unset_word) + ", or ";
   switch (option.type) {
     case OptionType::boolean:
       return "true or false";
@@ -223,9 +223,9 @@ std::string recipe_value(const Option& option, const Value& value) {
   if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
   if (const auto* real = std::get_if<double>(&value)) return decimal(*real);
-  if (const auto* text = std::get_if<std::string>(&value)) return quoted(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return toml_string(*text);
   if (const auto* list = std::get_if<List>(&value)) return fmt::format("[{}]", fmt::join(*list, ", "));
-  return option.unset_word.empty() ? "" : quoted(option.unset_word);
+  return option.unset_word.empty() ? "" : toml_string(option.unset_word);
 }
 
 std::string out_of_range(const Option& option, const Value& value) {

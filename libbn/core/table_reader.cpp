@@ -10,7 +10,7 @@ namespace bn::document {
 namespace {
 
 /// Texts of strangers go into messages: shortened, and without control characters.
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 60;
   std::string clean = "'";
   for (const char c : text.substr(0, kLongest))
@@ -171,7 +171,7 @@ std::string TableReader::read(const Option& option) {
     const auto* text = node->as_string();
     // A text where a word or a percentage may stand is shown; a list that does not fit is too long to show.
     const bool may_be_text = !option.unset_word.empty() || option.percent;
-    const std::string what = text && may_be_text ? "is " + quoted(text->get())
+    const std::string what = text && may_be_text ? "is " + in_quotes(text->get())
                              : node->is_array()  ? "is no such list"
                                                  : fmt::format("is {}", type_name(*node));
     mistake(key, what, fmt::format("{}{}", kind_of_number(option), allowed_text(option)));
@@ -186,7 +186,7 @@ std::string TableReader::read(const Option& option) {
   if (const auto* word = std::get_if<std::string>(&*value); word && option.type == OptionType::choice) {
     const std::string nearest = nearest_word(*word, option.words);
     if (!nearest.empty()) remedy = fmt::format("did you mean \"{}\"?", nearest);
-    mistake(key, "is " + quoted(*word), allowed_text(option), remedy);
+    mistake(key, "is " + in_quotes(*word), allowed_text(option), remedy);
     return key;
   }
   mistake(key, problem, allowed_text(option));
@@ -210,7 +210,7 @@ void TableReader::finish() {
     words.erase(std::unique(words.begin(), words.end()), words.end());
     const std::string nearest = nearest_word(name, words);
     diagnostics_.add(static_cast<int>(key.source().begin.line),
-                     fmt::format("{}: unknown key {}", what_, quoted(name)),
+                     fmt::format("{}: unknown key {}", what_, in_quotes(name)),
                      fmt::format("{}", fmt::join(words, ", ")),
                      nearest.empty() ? "" : fmt::format("did you mean '{}'?", nearest));
   }
