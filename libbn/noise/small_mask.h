@@ -13,8 +13,8 @@ namespace bn::noise {
 inline constexpr std::int64_t kSmallArea = 19 * 19;
 
 /// Void-and-cluster as Ulichney wrote it: from random points, a fifth of all, whose tightest cluster is moved
-/// into the largest void until that changes nothing. Returns ranks; time in proportion to the square of the
-/// area.
+/// into the largest void until that changes nothing. So small a mask is good or bad by chance, so of sixteen
+/// the one with the most even spectrum is returned. Time in proportion to the square of the area.
 Grid<std::uint32_t> small_mask(Extent size, const PixelKernel& kernel, std::uint64_t seed);
 
 }  // namespace bn::noise

@@ -16,6 +16,7 @@
 #include "noise/first_points.h"
 #include "noise/gaussian_kernel.h"
 #include "noise/last_holes.h"
+#include "noise/spectral_unevenness.h"
 
 namespace bn {
 
@@ -157,10 +158,12 @@ inline std::vector<std::size_t> reference_last_holes(Extent size, std::vector<st
 
 /// Masks of 19 x 19 pixels and fewer: from a fifth of the pixels, at random, whose tightest cluster is moved
 /// into the largest void until that changes nothing.
-inline std::uint32_t reference_small_start(const VoidAndClusterOptions& options, PlainPattern& pattern) {
+inline std::uint32_t reference_small_start(const VoidAndClusterOptions& options, std::size_t number,
+                                           PlainPattern& pattern) {
+  const std::size_t count = pattern.energy.count();
   std::vector<std::pair<std::uint64_t, std::size_t>> chance;
-  for (std::size_t i = 0; i < pattern.energy.count(); ++i)
-    chance.push_back({random_bits(options.seed, 5, i), i});
+  for (std::size_t i = 0; i < count; ++i)
+    chance.push_back({random_bits(options.seed, 5, number * count + i), i});
   std::sort(chance.begin(), chance.end());
   const std::size_t initial = std::max<std::size_t>(chance.size() / 5, 1);
   for (std::size_t i = 0; i < initial; ++i) pattern.set(chance[i].second);
@@ -172,6 +175,10 @@ inline std::uint32_t reference_small_start(const VoidAndClusterOptions& options,
     if (hole == cluster) break;
   }
   return static_cast<std::uint32_t>(initial);
+}
+
+inline bool is_small(const VoidAndClusterOptions& options) {
+  return options.initial_density == 0.0 && options.size.area() <= 19 * 19;
 }
 
 /// Of more than 19 x 19 pixels, without an initial pattern.
@@ -189,7 +196,8 @@ inline std::uint32_t set_first_points(const std::vector<std::size_t>& points, Pl
   return static_cast<std::uint32_t>(points.size());
 }
 
-inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOptions& options) {
+/// The number-th of the masks from which a small one is chosen; of others there is one.
+inline Grid<std::uint32_t> reference_mask(const VoidAndClusterOptions& options, std::size_t number) {
   Grid<std::uint32_t> ranks(options.size);
   const auto count = static_cast<std::uint32_t>(ranks.count());
   PlainPattern pattern(options);
@@ -202,8 +210,8 @@ inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOption
     const std::int64_t apart = 2 * std::max<std::int64_t>(pattern.sight(), 4);
     first = set_first_points(reference_first_points(options.size, count / (apart * apart), options.seed),
                              pattern, ranks);
-  } else if (options.initial_density == 0.0 && options.size.area() <= 19 * 19) {
-    initial = reference_small_start(options, pattern);
+  } else if (is_small(options)) {
+    initial = reference_small_start(options, number, pattern);
   } else {
     for (std::uint32_t rank = 0; rank < initial; ++rank) pattern.set(pattern.largest_void());
   }
@@ -264,6 +272,15 @@ inline Grid<std::uint32_t> queue_void_and_cluster(const VoidAndClusterOptions& o
   }
   noise::reorder_last_holes(ranks, kernel, {});
   return ranks;
+}
+
+inline Grid<std::uint32_t> reference_void_and_cluster(const VoidAndClusterOptions& options) {
+  Grid<std::uint32_t> best = reference_mask(options, 0);
+  for (std::size_t number = 1; is_small(options) && number < 16; ++number) {
+    Grid<std::uint32_t> mask = reference_mask(options, number);
+    if (noise::spectral_unevenness(mask) < noise::spectral_unevenness(best)) best = std::move(mask);
+  }
+  return best;
 }
 
 }  // namespace bn

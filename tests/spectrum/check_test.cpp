@@ -39,6 +39,17 @@ TEST(CheckBlue, PassesGoodMasks) {
   }
 }
 
+TEST(CheckBlue, PassesNineOfTenSmallMasks) {
+  for (int side = 8; side <= 24; ++side) {
+    int passed = 0;
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+      const auto mask = values_of(void_and_cluster({.size = {side, side}, .seed = seed}));
+      passed += failures(mask, {side, side}, side * side, Check::blue).empty() ? 1 : 0;
+    }
+    EXPECT_GE(passed, 9) << side;
+  }
+}
+
 TEST(CheckBlue, PassesPetersMasks) {
   for (const char* name :
        {"peters_cc0_128_HDR_L_0.png", "peters_cc0_128_LDR_LLL1_0.png", "peters_cc0_64_HDR_L_0.png"}) {
