@@ -152,8 +152,8 @@ class ColumnFiller {
 
   void run() {
     bool is_full = false;
-    for (std::int32_t limit = job_.step; !is_full;
-         limit = std::min(limit, kFullColumn - job_.step) + job_.step) {
+    for (std::int32_t limit = 0; !is_full && limit < job_.end;) {
+      limit = std::min(limit, job_.end - job_.step) + job_.step;
       is_full = true;
       for (int first = 0; first < job_.rows.count; first += kBandRows) {
         const int count = std::min(kBandRows, job_.rows.count - first);
@@ -259,18 +259,68 @@ class ColumnFiller {
   std::vector<Column> way_;
 };
 
-void fill_16_bits_here(const ColumnJob<std::uint16_t>& job) {
-  if (job.field.stride() % 32 == 0) {
-    ColumnFiller<hn::CappedTag<std::uint16_t, 32>>(job).run();
-  } else if (job.field.stride() % 16 == 0) {
-    ColumnFiller<hn::CappedTag<std::uint16_t, 16>>(job).run();
-  } else {
-    ColumnFiller<hn::CappedTag<std::uint16_t, 8>>(job).run();
+/// Of the places in the field of a voxel from slices of half the size, the one of least energy.
+template <class Lane>
+Voxel least_of_four(const ColumnField<Lane>& field, const Voxel& v) {
+  const auto [width, height] = field.columns();
+  const auto along = [](int at, int second, int side) {
+    return static_cast<int>((2 * std::int64_t{at} + second) * side / (2 * std::max(side / 2, 1)));
+  };
+  Voxel best{};
+  std::int32_t least = kFullColumn;
+  for (int i = 0; i < 4; ++i) {
+    const Voxel place{along(v.x, i % 2, width), along(v.y, i / 2, height), v.slice};
+    const std::int32_t energy = field.energy(std::int64_t{place.y} * width + place.x, place.slice);
+    if (energy >= least) continue;
+    least = energy;
+    best = place;
   }
+  return best;
 }
 
-void fill_32_bits_here(const ColumnJob<std::int32_t>& job) {
-  ColumnFiller<hn::CappedTag<std::int32_t, 8>>(job).run();
+template <class D>
+struct VectorsOf {
+  using Lane = hn::TFromD<D>;
+  static void fill(const ColumnJob<Lane>& job) { ColumnFiller<D>(job).run(); }
+  static std::vector<Voxel> set(ColumnField<Lane>& field, const ColumnKernel<Lane>& kernel,
+                                std::span<const Voxel> voxels) {
+    ColumnAdder<D> adder(field, kernel);
+    std::vector<Voxel> places;
+    for (const Voxel& of_half : voxels) {
+      const Voxel v = least_of_four(field, of_half);
+      places.push_back(v);
+      const std::int64_t at = std::int64_t{v.y} * field.columns().width + v.x;
+      field.column(at)[v.slice] = Lanes<Lane>::kSet;
+      adder.add(v.x, v.y, v.slice);
+      adder.update(at);
+    }
+    return places;
+  }
+};
+
+/// Calls body with the widest vectors that divide the stride.
+template <class Body>
+auto with_16_bit_vectors(int stride, const Body& body) {
+  if (stride % 32 == 0) return body(VectorsOf<hn::CappedTag<std::uint16_t, 32>>());
+  if (stride % 16 == 0) return body(VectorsOf<hn::CappedTag<std::uint16_t, 16>>());
+  return body(VectorsOf<hn::CappedTag<std::uint16_t, 8>>());
+}
+using Vectors32 = VectorsOf<hn::CappedTag<std::int32_t, 8>>;
+
+void fill_16_bits_here(const ColumnJob<std::uint16_t>& job) {
+  with_16_bit_vectors(job.field.stride(), [&](auto vectors) { vectors.fill(job); });
+}
+
+void fill_32_bits_here(const ColumnJob<std::int32_t>& job) { Vectors32::fill(job); }
+
+std::vector<Voxel> set_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
+                      std::span<const Voxel> voxels) {
+  return with_16_bit_vectors(field.stride(), [&](auto vectors) { return vectors.set(field, kernel, voxels); });
+}
+
+std::vector<Voxel> set_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
+                      std::span<const Voxel> voxels) {
+  return Vectors32::set(field, kernel, voxels);
 }
 
 }  // namespace
@@ -283,10 +333,21 @@ namespace bn::noise {
 namespace {
 HWY_EXPORT(fill_16_bits_here);
 HWY_EXPORT(fill_32_bits_here);
+HWY_EXPORT(set_16_bits_here);
+HWY_EXPORT(set_32_bits_here);
 }  // namespace
 
 void fill_columns(const ColumnJob<std::uint16_t>& job) { HWY_DYNAMIC_DISPATCH(fill_16_bits_here)(job); }
 void fill_columns(const ColumnJob<std::int32_t>& job) { HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(job); }
+
+std::vector<Voxel> set_voxels(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
+                std::span<const Voxel> voxels) {
+  return HWY_DYNAMIC_DISPATCH(set_16_bits_here)(field, kernel, voxels);
+}
+std::vector<Voxel> set_voxels(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
+                std::span<const Voxel> voxels) {
+  return HWY_DYNAMIC_DISPATCH(set_32_bits_here)(field, kernel, voxels);
+}
 
 }  // namespace bn::noise
 #endif  // HWY_ONCE

@@ -4,11 +4,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 #include "noise/column_field.h"
 #include "noise/row_locks.h"
 
 namespace bn::noise {
+
+struct Voxel {
+  int x;
+  int y;
+  int slice;
+};
 
 /// The columns that a thread fills: rows first..first+count-1.
 struct RowRange {
@@ -24,6 +32,8 @@ struct ColumnJob {
   RowRange rows;
   /// Rows are filled evenly: first what is below this energy, then what is below twice that, and so on.
   std::int32_t step;
+  /// Voxels of this energy and above are left unset.
+  std::int32_t end = kFullColumn;
   /// Threads that share them may do the same for other rows meanwhile.
   RowLocks& locks;
   /// The energy of each voxel when it was set, index (slice * height + y) * width + x.
@@ -32,9 +42,16 @@ struct ColumnJob {
   std::function<void(std::int64_t)> progress;
 };
 
-/// Sets all voxels of the rows, and what must come before them wherever it lies, always voxels that are the
+/// Sets all voxels of the rows whose energy stays below job.end, and what must come before them wherever it lies, always voxels that are the
 /// least (energy, index) of all unset voxels in reach when they are set.
 void fill_columns(const ColumnJob<std::uint16_t>& job);
 void fill_columns(const ColumnJob<std::int32_t>& job);
+
+/// Sets voxels that are given in slices of half the size, one after another, each at that of its four places
+/// which has the least energy, the first of equal ones. Returns where.
+std::vector<Voxel> set_voxels(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
+                std::span<const Voxel> voxels);
+std::vector<Voxel> set_voxels(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
+                std::span<const Voxel> voxels);
 
 }  // namespace bn::noise

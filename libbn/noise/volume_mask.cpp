@@ -19,7 +19,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "bn/noise.h"
 #include "bn/random.h"
@@ -28,6 +30,8 @@
 #include "core/refuse.h"
 #include "noise/axis_function.h"
 #include "noise/filling_order.h"
+#include "noise/first_voxels.h"
+#include "noise/last_voxels.h"
 #include "noise/plane_kernel.h"
 #include "noise/rank_order.h"
 #include "noise/slice_ranks.h"
@@ -92,12 +96,16 @@ Grid<std::uint32_t> plane_mask(const VolumeMaskOptions& options, const Execution
   return ranks;
 }
 
-/// Appends random bits to energies up to `most`, as many as are free below kSetMark.
-void append_random_bits(Grid<std::uint32_t>& energies, std::int64_t most, std::uint64_t seed,
-                        const Execution& execution) {
-  const int bits = std::min(16, std::countr_zero(static_cast<std::uint32_t>(kSetMark)) -
-                                    static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most))));
+/// Makes energies into keys that put `first` before all others, in their order, and of equal energies the one
+/// with the lower random bits: as many as are free below kSetMark, which no energy up to `most` reaches.
+void replace_by_keys(Grid<std::uint32_t>& energies, std::span<const Voxel> first, std::int64_t most,
+                     std::uint64_t seed, const Execution& execution) {
+  const auto count = static_cast<std::uint64_t>(first.size());
+  const int bits =
+      std::min(16, std::countr_zero(static_cast<std::uint32_t>(kSetMark)) -
+                       static_cast<int>(std::bit_width(static_cast<std::uint64_t>(most) + count + 1)));
   const std::uint32_t mask = (std::uint32_t{1} << bits) - 1;
+  const auto after_first = static_cast<std::uint32_t>(count == 0 ? 0 : (count >> bits) + 1);
   constexpr std::size_t kChunk = std::size_t{1} << 16;
   const auto chunks = static_cast<std::int64_t>((energies.count() + kChunk - 1) / kChunk);
   parallel_for(execution, chunks, [&](std::int64_t chunk) {
@@ -105,9 +113,14 @@ void append_random_bits(Grid<std::uint32_t>& energies, std::int64_t most, std::u
     std::uint64_t four = 0;
     for (std::size_t i = begin; i < std::min(begin + kChunk, energies.count()); ++i, four >>= 16) {
       if (i % 4 == 0) four = random_bits(seed, kEqualsStream, i / 4);
-      energies[i] = energies[i] << bits | (static_cast<std::uint32_t>(four) & mask);
+      energies[i] = (energies[i] + after_first) << bits | (static_cast<std::uint32_t>(four) & mask);
     }
   });
+  const Extent slice{energies.width(), energies.height()};
+  for (std::uint32_t i = 0; i < first.size(); ++i) {
+    const Voxel& v = first[i];
+    energies[static_cast<std::size_t>(v.slice * slice.area() + std::int64_t{v.y} * slice.width + v.x)] = i;
+  }
 }
 
 }  // namespace
@@ -129,10 +142,12 @@ Grid<std::uint32_t> volume_mask(const VolumeMaskOptions& options, const Executio
 
   ProgressMeter meter(execution, voxels);
   const VolumeWeights weights(options.size, options.kernel);
-  Grid<std::uint32_t> ranks = volume_order(weights, options.seed, execution, meter);
-  append_random_bits(ranks, weights.sum() + kVolumeStartLimit, options.seed, execution);
+  auto [ranks, first] = volume_order(
+      weights, first_voxels(weights, options.kernel, options.seed, execution), options.seed, execution, meter);
+  replace_by_keys(ranks, first, weights.sum() + kVolumeStartLimit, options.seed, execution);
   if (options.ranks == RankScope::slice) {
     replace_by_ranks_in_slices(ranks, execution);
+    reorder_last_voxels(ranks, weights, options.kernel, execution);
   } else {
     std::vector<std::uint32_t> room(ranks.count());
     replace_by_ranks(ranks, room, execution);

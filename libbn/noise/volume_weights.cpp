@@ -88,6 +88,12 @@ std::uint64_t VolumeWeights::bytes(const TorusSides& sides, const VolumeKernel& 
   return slices * (4 * columns + 8 * kernel.size()) + 8 * static_cast<std::uint64_t>(sides.x + sides.y);
 }
 
+int VolumeWeights::sight() const {
+  int sight = 0;
+  while (sight < reach_x_ && line(sight + 1, 0)[0] >= kVolumeStartLimit) ++sight;
+  return sight;
+}
+
 std::span<const std::int32_t> VolumeWeights::line(int dx, int dy) const {
   const auto count = static_cast<std::size_t>(slices());
   const auto at = static_cast<std::size_t>(std::abs(dy) * (reach_x_ + 1) + std::abs(dx));

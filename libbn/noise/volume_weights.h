@@ -37,6 +37,8 @@ class VolumeWeights {
   /// The largest distance along x and y, around the torus, of a weight that is not zero.
   int reach_x() const { return reach_x_; }
   int reach_y() const { return reach_y_; }
+  /// How far a voxel sees another of its slice along x: weights there are no less than start energies.
+  int sight() const;
   /// The weights at a distance of |dx| <= reach_x(), |dy| <= reach_y(), by dw * z_side + dz, each modulo its
   /// side.
   std::span<const std::int32_t> line(int dx, int dy) const;

@@ -6,13 +6,15 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "bn/random.h"
 #include "bn/spatiotemporal.h"
+#include "core/reproducible_math.h"
+#include "noise/axis_function.h"
 #include "noise/volume_weights.h"
+#include "reference_void_and_cluster.h"
 
 namespace bn {
 
@@ -42,41 +44,177 @@ inline std::int64_t plain_start_energy(std::uint64_t seed, std::uint64_t index) 
   return static_cast<std::int64_t>(random_bits(seed, 2, index / 8) >> (8 * (index % 8)) & 0x1F);
 }
 
-/// The energy of each voxel when it was set, one after another.
-inline std::vector<std::int64_t> reference_volume_order(const noise::VolumeWeights& weights,
-                                                        std::uint64_t seed) {
-  const auto [width, height, z, w] = weights.sides();
-  const PlainWeights plain(weights);
-  const std::int64_t count = std::int64_t{width} * height * z * w;
-  std::vector<std::int64_t> energy, when_set(static_cast<std::size_t>(count), -1);
-  for (std::int64_t i = 0; i < count; ++i)
-    energy.push_back(plain_start_energy(seed, static_cast<std::uint64_t>(i)));
-  for (std::int64_t set = 0; set < count; ++set) {
-    std::int64_t best = -1;
-    for (std::int64_t i = 0; i < count; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      if (when_set[at] < 0 && (best < 0 || energy[at] < energy[static_cast<std::size_t>(best)])) best = i;
-    }
-    when_set[static_cast<std::size_t>(best)] = energy[static_cast<std::size_t>(best)];
-    for (std::int64_t i = 0; i < count; ++i) energy[static_cast<std::size_t>(i)] += plain.between(best, i);
+/// Voxels that are set one after another.
+class PlainVolume {
+ public:
+  PlainVolume(const noise::VolumeWeights& weights, std::uint64_t seed)
+      : weights_(weights), plain_(weights_), when_set(count(weights.sides()), -1) {
+    for (std::size_t i = 0; i < when_set.size(); ++i) energy_.push_back(plain_start_energy(seed, i));
   }
-  return when_set;
+  static std::size_t count(const TorusSides& s) {
+    return static_cast<std::size_t>(std::int64_t{s.x} * s.y * s.z * s.w);
+  }
+
+  /// Sets the voxel of least energy, the lowest index of equal ones, and returns it.
+  std::size_t set_largest_void() {
+    std::size_t best = when_set.size();
+    for (std::size_t i = 0; i < when_set.size(); ++i) {
+      if (when_set[i] < 0 && (best == when_set.size() || energy_[i] < energy_[best])) best = i;
+    }
+    set(best);
+    return best;
+  }
+
+  /// Sets a voxel that is given in slices of half the size at that of its four places which has the least
+  /// energy, the first of equal ones, and returns it.
+  std::size_t set_of_half(const TorusSides& half, std::size_t voxel) {
+    const auto [width, height, z, w] = weights_.sides();
+    const auto half_width = static_cast<std::size_t>(half.x), half_height = static_cast<std::size_t>(half.y);
+    std::size_t best = when_set.size();
+    for (std::size_t place = 0; place < 4; ++place) {
+      const std::size_t x =
+          (2 * (voxel % half_width) + place % 2) * static_cast<std::size_t>(width) / (2 * half_width);
+      const std::size_t y = (2 * (voxel / half_width % half_height) + place / 2) *
+                            static_cast<std::size_t>(height) / (2 * half_height);
+      const std::size_t slice = voxel / half_width / half_height;
+      const std::size_t i =
+          (slice * static_cast<std::size_t>(height) + y) * static_cast<std::size_t>(width) + x;
+      if (best == when_set.size() || energy_[i] < energy_[best]) best = i;
+    }
+    set(best);
+    return best;
+  }
+
+ private:
+  const noise::VolumeWeights weights_;
+  const PlainWeights plain_;
+  std::vector<std::int64_t> energy_;
+
+  void set(std::size_t voxel) {
+    when_set[voxel] = energy_[voxel];
+    for (std::size_t i = 0; i < energy_.size(); ++i)
+      energy_[i] += plain_.between(static_cast<std::int64_t>(voxel), static_cast<std::int64_t>(i));
+  }
+
+ public:
+  std::vector<std::int64_t> when_set;  ///< energies; -1: not set
+};
+
+/// The first voxels in slices of half the size (first_voxels.h), `most` of them at most.
+inline std::vector<std::size_t> reference_first_voxels(const noise::VolumeWeights& weights,
+                                                       const VolumeKernel& kernel, std::uint64_t seed,
+                                                       std::int64_t most = INT64_MAX,
+                                                       std::uint32_t level = 1) {
+  const TorusSides& s = weights.sides();
+  int sight = 0;
+  while (sight < weights.reach_x() && weights.line(sight + 1, 0)[0] >= 32) ++sight;
+  const int apart = (5 * std::max(sight, 3) + 1) / 2;
+  const std::int64_t count = std::min(most, s.x * s.y / (apart * apart) * std::int64_t{s.z} * s.w);
+  if (count == 0) return {};
+  VolumeKernel coarse = kernel;
+  for (KernelTerm& term : coarse) {
+    for (AxisFunction* f : {&term.x, &term.y}) {
+      if (f->form != AxisForm::one && f->form != AxisForm::delta) *f = {AxisForm::gauss, 1.9};
+    }
+  }
+  const TorusSides half{std::max(s.x / 2, 1), std::max(s.y / 2, 1), s.z, s.w};
+  const TorusSides quarter{std::max(half.x / 2, 1), std::max(half.y / 2, 1), s.z, s.w};
+  const noise::VolumeWeights half_weights(half, coarse);
+  PlainVolume volume(half_weights, random_bits(seed, 64 + level, 0));
+  std::vector<std::size_t> voxels;
+  for (const std::size_t voxel : reference_first_voxels(half_weights, kernel, seed, count, level + 1))
+    voxels.push_back(volume.set_of_half(quarter, voxel));
+  while (std::ssize(voxels) < count) voxels.push_back(volume.set_largest_void());
+  return voxels;
+}
+
+/// Fills the last holes of all slices in another order (last_voxels.h). `ranks` are those of slices.
+inline void reference_last_voxels(Grid<std::uint32_t>& ranks, const noise::VolumeWeights& weights,
+                                  const VolumeKernel& kernel) {
+  const auto [width, height, z, w] = weights.sides();
+  // What is seen in time, but by the same pixel only: in the own slice 256, in others three times as much.
+  std::vector<double> time(static_cast<std::size_t>(z * w));
+  for (const KernelTerm& term : kernel) {
+    if (term.x.form == AxisForm::delta && term.y.form == AxisForm::delta) continue;
+    for (std::size_t i = 0; i < time.size(); ++i) {
+      time[i] += term.weight * noise::wrapped(term.z, z)[i % static_cast<std::size_t>(z)] *
+                 noise::wrapped(term.w, w)[i / static_cast<std::size_t>(z)];
+    }
+  }
+  if (time[0] == 0.0) return;
+  std::vector<int> seen;
+  for (const double value : time) seen.push_back(static_cast<int>(768.0 * value / time[0] + 0.5));
+  seen[0] /= 3;
+  int most = 0, all = 0;
+  for (std::size_t i = 1; i < seen.size(); ++i) {
+    most = std::max(most, seen[i]);
+    all += seen[i];
+  }
+
+  int sight = 0;
+  while (sight < weights.reach_x() && weights.line(sight + 1, 0)[0] >= 32) ++sight;
+  const int apart = std::max(sight, 8);
+  const auto area = static_cast<std::size_t>(width * height);
+  std::vector<std::uint32_t> next(seen.size(),
+                                  static_cast<std::uint32_t>(width * height - width * height / (apart * apart)));
+  std::vector<std::size_t> holes;
+  for (std::size_t i = 0; i < ranks.count(); ++i) {
+    if (ranks[i] >= next[0]) holes.push_back(i);
+  }
+  const auto gauss = [](double pixels_a_point, std::int64_t squared) {
+    const double t = 2.0 * static_cast<double>(squared) / pixels_a_point;
+    return t < 4.5 ? static_cast<int>(256.0 * reproducible_exp(-t)) : 0;
+  };
+  while (!holes.empty()) {
+    const double in_slice = static_cast<double>(holes.size()) / (z * w);
+    const double own = width * height / in_slice;
+    const double others = most > 0 ? width * height / (in_slice * (1.0 + double(all) / most)) : 1.0;
+    const std::size_t half = holes.size() / 2;
+    while (holes.size() > half) {
+      std::pair<int, std::size_t> tightest{-1, 0};
+      for (std::size_t i = 0; i < holes.size(); ++i) {
+        int energy = 0;
+        for (const std::size_t other : holes) {
+          const int slice = static_cast<int>(holes[i] / area), to = static_cast<int>(other / area);
+          const std::int64_t squared =
+              squared_distance({width, height}, holes[i] % area, other % area);
+          const int dz = wrap(to % z - slice % z, z), dw = wrap(to / z - slice / z, w);
+          energy += seen[static_cast<std::size_t>(dw * z + dz)] * gauss(to == slice ? own : others, squared);
+        }
+        if (energy > tightest.first) tightest = {energy, i};
+      }
+      const std::size_t hole = holes[tightest.second];
+      ranks[hole] = next[hole / area]++;
+      holes.erase(holes.begin() + static_cast<std::ptrdiff_t>(tightest.second));
+    }
+  }
 }
 
 /// For volumes of several slices.
 inline Grid<std::uint32_t> reference_volume_mask(const VolumeMaskOptions& options) {
   const noise::VolumeWeights weights(options.size, options.kernel);
-  const std::vector<std::int64_t> when_set = reference_volume_order(weights, options.seed);
+  PlainVolume volume(weights, options.seed);
+  std::vector<std::uint32_t> order;
+  const TorusSides half{std::max(options.size.x / 2, 1), std::max(options.size.y / 2, 1), options.size.z,
+                        options.size.w};
+  for (const std::size_t voxel : reference_first_voxels(weights, options.kernel, options.seed))
+    order.push_back(static_cast<std::uint32_t>(volume.set_of_half(half, voxel)));
+  std::vector<bool> is_first(volume.when_set.size());
+  for (const std::uint32_t voxel : order) is_first[voxel] = true;
+  const std::size_t first = order.size();
+  for (std::size_t i = first; i < volume.when_set.size(); ++i) volume.set_largest_void();
   // Of voxels set at equal energies, random bits decide, as many as are left of 30, but 16 at most.
   const int bits = std::min(16, 30 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(
-                                         weights.sum() + noise::kVolumeStartLimit))));
+                                         weights.sum() + noise::kVolumeStartLimit) +
+                                         first + 1)));
   const auto key = [&](std::uint64_t i) {
     const std::uint64_t random = random_bits(options.seed, 3, i / 4) >> (16 * (i % 4)) & ((1u << bits) - 1);
-    return std::pair(when_set[i], random);
+    return std::pair(volume.when_set[i], random);
   };
-  std::vector<std::uint32_t> order(when_set.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
+  for (std::uint32_t i = 0; i < is_first.size(); ++i) {
+    if (!is_first[i]) order.push_back(i);
+  }
+  std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
 
   const auto [width, height, z, w] = options.size;
@@ -86,6 +224,7 @@ inline Grid<std::uint32_t> reference_volume_mask(const VolumeMaskOptions& option
   for (const std::uint32_t voxel : order) {
     ranks[voxel] = next[options.ranks == RankScope::slice ? voxel / in_slice : 0]++;
   }
+  if (options.ranks == RankScope::slice) reference_last_voxels(ranks, weights, options.kernel);
   return ranks;
 }
 
