@@ -15,6 +15,7 @@ Verb retarget_verb();
 Verb spectrum_verb();
 Verb study_anneal_verb();
 Verb study_fft_verb();
+Verb study_presets_verb();
 Verb study_temporal_verb();
 Verb validate_verb();
 Verb verify_verb();
@@ -30,7 +31,7 @@ std::vector<Verb> all_verbs() {
     }
   }
   for (auto make : {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb,
-                    study_fft_verb, study_temporal_verb, validate_verb, completion_verb, help_verb}) {
+                    study_fft_verb, study_presets_verb, study_temporal_verb, validate_verb, completion_verb, help_verb}) {
     verbs.push_back(make());
   }
   return verbs;
