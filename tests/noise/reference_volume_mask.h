@@ -166,9 +166,8 @@ inline void reference_last_voxels(Grid<std::uint32_t>& ranks, const noise::Volum
     return t < 4.5 ? static_cast<int>(256.0 * reproducible_exp(-t)) : 0;
   };
   while (!holes.empty()) {
-    const double in_slice = static_cast<double>(holes.size()) / (z * w);
-    const double own = width * height / in_slice;
-    const double others = most > 0 ? width * height / (in_slice * (1.0 + double(all) / most)) : 1.0;
+    const double own = static_cast<double>(ranks.count()) / static_cast<double>(holes.size());
+    const double others = most > 0 ? own * most / (all + most) : 1.0;
     const std::size_t half = holes.size() / 2;
     while (holes.size() > half) {
       std::pair<int, std::size_t> tightest{-1, 0};
@@ -179,7 +178,8 @@ inline void reference_last_voxels(Grid<std::uint32_t>& ranks, const noise::Volum
           const std::int64_t squared =
               squared_distance({width, height}, holes[i] % area, other % area);
           const int dz = wrap(to % z - slice % z, z), dw = wrap(to / z - slice / z, w);
-          energy += seen[static_cast<std::size_t>(dw * z + dz)] * gauss(to == slice ? own : others, squared);
+          energy +=
+              seen[static_cast<std::size_t>(dw * z + dz)] * gauss(to == slice ? own : others, squared);
         }
         if (energy > tightest.first) tightest = {energy, i};
       }
