@@ -30,8 +30,9 @@ std::vector<Verb> all_verbs() {
       verbs.push_back(kind_verb(*kind));
     }
   }
-  for (auto make : {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb,
-                    study_fft_verb, study_presets_verb, study_temporal_verb, validate_verb, completion_verb, help_verb}) {
+  for (auto make :
+       {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb, study_fft_verb,
+        study_presets_verb, study_temporal_verb, validate_verb, completion_verb, help_verb}) {
     verbs.push_back(make());
   }
   return verbs;

@@ -313,13 +313,15 @@ void fill_16_bits_here(const ColumnJob<std::uint16_t>& job) {
 
 void fill_32_bits_here(const ColumnJob<std::int32_t>& job) { Vectors32::fill(job); }
 
-std::vector<Voxel> set_16_bits_here(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                      std::span<const Voxel> voxels) {
-  return with_16_bit_vectors(field.stride(), [&](auto vectors) { return vectors.set(field, kernel, voxels); });
+std::vector<Voxel> set_16_bits_here(ColumnField<std::uint16_t>& field,
+                                    const ColumnKernel<std::uint16_t>& kernel,
+                                    std::span<const Voxel> voxels) {
+  return with_16_bit_vectors(field.stride(),
+                             [&](auto vectors) { return vectors.set(field, kernel, voxels); });
 }
 
-std::vector<Voxel> set_32_bits_here(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                      std::span<const Voxel> voxels) {
+std::vector<Voxel> set_32_bits_here(ColumnField<std::int32_t>& field,
+                                    const ColumnKernel<std::int32_t>& kernel, std::span<const Voxel> voxels) {
   return Vectors32::set(field, kernel, voxels);
 }
 
@@ -341,11 +343,11 @@ void fill_columns(const ColumnJob<std::uint16_t>& job) { HWY_DYNAMIC_DISPATCH(fi
 void fill_columns(const ColumnJob<std::int32_t>& job) { HWY_DYNAMIC_DISPATCH(fill_32_bits_here)(job); }
 
 std::vector<Voxel> set_voxels(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                std::span<const Voxel> voxels) {
+                              std::span<const Voxel> voxels) {
   return HWY_DYNAMIC_DISPATCH(set_16_bits_here)(field, kernel, voxels);
 }
 std::vector<Voxel> set_voxels(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                std::span<const Voxel> voxels) {
+                              std::span<const Voxel> voxels) {
   return HWY_DYNAMIC_DISPATCH(set_32_bits_here)(field, kernel, voxels);
 }
 

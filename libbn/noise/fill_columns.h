@@ -42,16 +42,16 @@ struct ColumnJob {
   std::function<void(std::int64_t)> progress;
 };
 
-/// Sets all voxels of the rows whose energy stays below job.end, and what must come before them wherever it lies, always voxels that are the
-/// least (energy, index) of all unset voxels in reach when they are set.
+/// Sets all voxels of the rows whose energy stays below job.end, and what must come before them wherever it
+/// lies, always voxels that are the least (energy, index) of all unset voxels in reach when they are set.
 void fill_columns(const ColumnJob<std::uint16_t>& job);
 void fill_columns(const ColumnJob<std::int32_t>& job);
 
 /// Sets voxels that are given in slices of half the size, one after another, each at that of its four places
 /// which has the least energy, the first of equal ones. Returns where.
 std::vector<Voxel> set_voxels(ColumnField<std::uint16_t>& field, const ColumnKernel<std::uint16_t>& kernel,
-                std::span<const Voxel> voxels);
+                              std::span<const Voxel> voxels);
 std::vector<Voxel> set_voxels(ColumnField<std::int32_t>& field, const ColumnKernel<std::int32_t>& kernel,
-                std::span<const Voxel> voxels);
+                              std::span<const Voxel> voxels);
 
 }  // namespace bn::noise

@@ -15,8 +15,8 @@ constexpr double kCoarseSigma = 1.9;
 // Of random_bits; the level is added, 1 for half the size.
 constexpr std::uint32_t kSeedStream = 64;
 
-/// How many voxels of a slice are two and a half times the kernel's sight apart, about: more, and the average of
-/// frames feels that they were placed by halves.
+/// How many voxels of a slice are two and a half times the kernel's sight apart, about: more, and the average
+/// of frames feels that they were placed by halves.
 std::int64_t count_in_slice(const VolumeWeights& weights) {
   constexpr int kLeastSight = 3;
   const std::int64_t apart = (5 * std::max(weights.sight(), kLeastSight) + 1) / 2;

@@ -23,8 +23,8 @@ struct Hole {
 /// A difference of two places along an axis, around the torus.
 int around(int difference, int side) { return difference < 0 ? difference + side : difference; }
 
-/// How much more other slices weigh than in the kernel, for their Gaussian is narrower. With 8 slices lose half
-/// of what is gained and the average of frames is 5 % better; with 1 it is 10 % worse.
+/// How much more other slices weigh than in the kernel, for their Gaussian is narrower. With 8 slices lose
+/// half of what is gained and the average of frames is 5 % better; with 1 it is 10 % worse.
 constexpr int kOtherSlices = 3;
 
 /// What a voxel sees of others in time, by dw * z_side + dz; of its own slice 256.
@@ -34,8 +34,7 @@ std::vector<std::int32_t> sight_in_time(const TorusSides& sides, const VolumeKer
     // What sees its own pixel only hardly ever meets another hole.
     if (term.x.form == AxisForm::delta && term.y.form == AxisForm::delta) continue;
     const std::vector<double> z = wrapped(term.z, sides.z), w = wrapped(term.w, sides.w);
-    for (std::size_t i = 0; i < sum.size(); ++i)
-      sum[i] += term.weight * z[i % z.size()] * w[i / z.size()];
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += term.weight * z[i % z.size()] * w[i / z.size()];
   }
   std::vector<std::int32_t> seen;
   for (const double value : sum)
@@ -44,20 +43,22 @@ std::vector<std::int32_t> sight_in_time(const TorusSides& sides, const VolumeKer
   return seen;
 }
 
-/// Holes that see those of their slice through a Gaussian of half their mean distance there, and those of other
-/// slices through one of half the mean distance of all that are seen, laid over each other.
+/// Holes that see those of their slice through a Gaussian of half their mean distance there, and those of
+/// other slices through one of half the mean distance of all that are seen, laid over each other.
 class Holes {
  public:
   Holes(const TorusSides& sides, const std::vector<std::int32_t>& in_time, const std::vector<Hole>& holes,
         const Execution& execution)
       : sides_(sides), in_time_(in_time), holes_(holes), execution_(execution), energy_(holes.size()) {
     const int slices = sides.z * sides.w;
-    const double pixels_a_hole = static_cast<double>(sides.x) * sides.y * slices / static_cast<double>(holes.size());
+    const double pixels_a_hole =
+        static_cast<double>(sides.x) * sides.y * slices / static_cast<double>(holes.size());
     own_slice_ = gaussian(pixels_a_hole);
     const auto others_begin = in_time.begin() + 1;
     const std::int64_t all = std::accumulate(others_begin, in_time.end(), std::int64_t{0});
     const std::int64_t most = all == 0 ? 1 : *std::max_element(others_begin, in_time.end());
-    if (all > 0) other_slices_ = gaussian(pixels_a_hole * static_cast<double>(most) / static_cast<double>(all + most));
+    if (all > 0)
+      other_slices_ = gaussian(pixels_a_hole * static_cast<double>(most) / static_cast<double>(all + most));
 
     const Extent size{sides.x, sides.y};
     everywhere_ = PointGrid(size, reach(other_slices_));
@@ -85,7 +86,8 @@ class Holes {
   std::vector<std::size_t> fill() {
     using Candidate = std::pair<std::int32_t, std::ptrdiff_t>;  // energy, -number
     std::vector<Candidate> all;
-    for (std::size_t i = 0; i < energy_.size(); ++i) all.push_back({energy_[i], -static_cast<std::ptrdiff_t>(i)});
+    for (std::size_t i = 0; i < energy_.size(); ++i)
+      all.push_back({energy_[i], -static_cast<std::ptrdiff_t>(i)});
     std::priority_queue<Candidate> queue({}, std::move(all));
     std::vector<std::size_t> order;
     while (!queue.empty()) {
@@ -107,8 +109,8 @@ class Holes {
  private:
   static constexpr double kMostT = 4.5;
 
-  /// The Gaussian of half the mean distance of points that have so many pixels each, by squared distance, up to
-  /// the largest on the torus.
+  /// The Gaussian of half the mean distance of points that have so many pixels each, by squared distance, up
+  /// to the largest on the torus.
   std::vector<std::int32_t> gaussian(double pixels_a_point) const {
     const int half_x = sides_.x / 2, half_y = sides_.y / 2;
     std::vector<std::int32_t> values;
@@ -131,14 +133,16 @@ class Holes {
     const std::size_t first = first_[slice];
     in_slice_[slice].near(centre.at, [&](int number, std::int64_t squared) {
       if (squared < std::ssize(own_slice_))
-        body(first + static_cast<std::size_t>(number), in_time_[0] * own_slice_[static_cast<std::size_t>(squared)]);
+        body(first + static_cast<std::size_t>(number),
+             in_time_[0] * own_slice_[static_cast<std::size_t>(squared)]);
     });
     if (other_slices_.empty()) return;
     everywhere_.near(centre.at, [&](int number, std::int64_t squared) {
       const auto other = static_cast<std::size_t>(number);
       const Hole& seen = holes_[other];
       if (squared >= std::ssize(other_slices_) || seen.slice == centre.slice) return;
-      const int distance = around(seen.w - centre.w, sides_.w) * sides_.z + around(seen.z - centre.z, sides_.z);
+      const int distance =
+          around(seen.w - centre.w, sides_.w) * sides_.z + around(seen.z - centre.z, sides_.z);
       const std::int32_t in_time = in_time_[static_cast<std::size_t>(distance)];
       body(other, in_time * other_slices_[static_cast<std::size_t>(squared)]);
     });

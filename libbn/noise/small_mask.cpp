@@ -76,7 +76,8 @@ class Pattern {
 std::vector<std::size_t> random_pixels(std::size_t count, std::size_t of, std::uint64_t seed,
                                        std::uint64_t number) {
   std::vector<std::pair<std::uint64_t, std::size_t>> order;
-  for (std::size_t i = 0; i < of; ++i) order.push_back({random_bits(seed, kRandomStream, number * of + i), i});
+  for (std::size_t i = 0; i < of; ++i)
+    order.push_back({random_bits(seed, kRandomStream, number * of + i), i});
   std::sort(order.begin(), order.end());
   std::vector<std::size_t> pixels;
   for (std::size_t i = 0; i < count; ++i) pixels.push_back(order[i].second);

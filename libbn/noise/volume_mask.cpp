@@ -142,8 +142,8 @@ Grid<std::uint32_t> volume_mask(const VolumeMaskOptions& options, const Executio
 
   ProgressMeter meter(execution, voxels);
   const VolumeWeights weights(options.size, options.kernel);
-  auto [ranks, first] = volume_order(
-      weights, first_voxels(weights, options.kernel, options.seed, execution), options.seed, execution, meter);
+  auto [ranks, first] = volume_order(weights, first_voxels(weights, options.kernel, options.seed, execution),
+                                     options.seed, execution, meter);
   replace_by_keys(ranks, first, weights.sum() + kVolumeStartLimit, options.seed, execution);
   if (options.ranks == RankScope::slice) {
     replace_by_ranks_in_slices(ranks, execution);

@@ -36,8 +36,7 @@ int useful_threads(const VolumeWeights& weights, const Execution& execution) {
 /// Nothing if a voxel was too far above its column to be represented.
 template <class Lane>
 std::optional<VolumeOrder> fill(const VolumeWeights& weights, std::span<const Voxel> first,
-                                        std::uint64_t seed, const Execution& execution,
-                                        ProgressMeter& meter) {
+                                std::uint64_t seed, const Execution& execution, ProgressMeter& meter) {
   const TorusSides& sides = weights.sides();
   ColumnField<Lane> field({sides.x, sides.y}, weights.slices());
   write_start_energies(field, seed, execution);
@@ -93,14 +92,13 @@ std::uint64_t volume_order_bytes(const TorusSides& sides) {
 }
 
 VolumeOrder volume_order(const VolumeWeights& weights, std::span<const Voxel> first, std::uint64_t seed,
-                                 const Execution& execution, ProgressMeter& meter) {
+                         const Execution& execution, ProgressMeter& meter) {
   if (auto order = fill<std::uint16_t>(weights, first, seed, execution, meter)) return *std::move(order);
   return volume_order_32_bits(weights, first, seed, execution, meter);
 }
 
 VolumeOrder volume_order_32_bits(const VolumeWeights& weights, std::span<const Voxel> first,
-                                         std::uint64_t seed, const Execution& execution,
-                                         ProgressMeter& meter) {
+                                 std::uint64_t seed, const Execution& execution, ProgressMeter& meter) {
   return *fill<std::int32_t>(weights, first, seed, execution, meter);
 }
 
@@ -115,8 +113,7 @@ void append_first_voxels(const VolumeWeights& weights, std::uint64_t seed, std::
   constexpr std::uint32_t kUnset = UINT32_MAX;
   Grid<std::uint32_t> energies({width, height, weights.slices()}, kUnset);
   const auto all = static_cast<std::int64_t>(energies.count());
-  const auto end =
-      static_cast<std::int32_t>(kVolumeStartLimit + weights.sum() * count / all + 1);
+  const auto end = static_cast<std::int32_t>(kVolumeStartLimit + weights.sum() * count / all + 1);
   RowLocks locks(height, weights.reach_y(), true);
   fill_columns(ColumnJob<std::int32_t>{.field = field,
                                        .kernel = kernel,

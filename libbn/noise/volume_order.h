@@ -25,15 +25,14 @@ struct VolumeOrder {
 /// `first`, which are given in slices of half the size (set_voxels). The start energies are random. `meter`
 /// advances by a unit a voxel.
 VolumeOrder volume_order(const VolumeWeights& weights, std::span<const Voxel> first, std::uint64_t seed,
-                                 const Execution& execution, ProgressMeter& meter);
+                         const Execution& execution, ProgressMeter& meter);
 
 /// The same on energies of 32 bits, whatever their range; for tests.
 VolumeOrder volume_order_32_bits(const VolumeWeights& weights, std::span<const Voxel> first,
-                                         std::uint64_t seed, const Execution& execution,
-                                         ProgressMeter& meter);
+                                 std::uint64_t seed, const Execution& execution, ProgressMeter& meter);
 
-/// Where `voxels` are set already, given as above, appends the next ones in the order of (energy when set, index)
-/// until they are `count`. One thread.
+/// Where `voxels` are set already, given as above, appends the next ones in the order of (energy when set,
+/// index) until they are `count`. One thread.
 void append_first_voxels(const VolumeWeights& weights, std::uint64_t seed, std::int64_t count,
                          const Execution& execution, std::vector<Voxel>& voxels);
 

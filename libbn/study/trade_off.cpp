@@ -28,7 +28,8 @@ void measure(TradeOff& row, const SpatiotemporalOptions& options, const Executio
 
 /// Whether `a` makes `b` pointless.
 bool dominates(const TradeOff& a, const TradeOff& b) {
-  const std::array errors{std::pair{a.slice_error, b.slice_error}, std::pair{a.average_error, b.average_error},
+  const std::array errors{std::pair{a.slice_error, b.slice_error},
+                          std::pair{a.average_error, b.average_error},
                           std::pair{a.pixel_error, b.pixel_error}};
   return std::all_of(errors.begin(), errors.end(), [](const auto& e) { return e.first <= e.second; }) &&
          std::any_of(errors.begin(), errors.end(), [](const auto& e) { return e.first < e.second; });

@@ -155,8 +155,8 @@ inline void reference_last_voxels(Grid<std::uint32_t>& ranks, const noise::Volum
   while (sight < weights.reach_x() && weights.line(sight + 1, 0)[0] >= 32) ++sight;
   const int apart = std::max(sight, 8);
   const auto area = static_cast<std::size_t>(width * height);
-  std::vector<std::uint32_t> next(seen.size(),
-                                  static_cast<std::uint32_t>(width * height - width * height / (apart * apart)));
+  std::vector<std::uint32_t> next(
+      seen.size(), static_cast<std::uint32_t>(width * height - width * height / (apart * apart)));
   std::vector<std::size_t> holes;
   for (std::size_t i = 0; i < ranks.count(); ++i) {
     if (ranks[i] >= next[0]) holes.push_back(i);
@@ -175,11 +175,9 @@ inline void reference_last_voxels(Grid<std::uint32_t>& ranks, const noise::Volum
         int energy = 0;
         for (const std::size_t other : holes) {
           const int slice = static_cast<int>(holes[i] / area), to = static_cast<int>(other / area);
-          const std::int64_t squared =
-              squared_distance({width, height}, holes[i] % area, other % area);
+          const std::int64_t squared = squared_distance({width, height}, holes[i] % area, other % area);
           const int dz = wrap(to % z - slice % z, z), dw = wrap(to / z - slice / z, w);
-          energy +=
-              seen[static_cast<std::size_t>(dw * z + dz)] * gauss(to == slice ? own : others, squared);
+          energy += seen[static_cast<std::size_t>(dw * z + dz)] * gauss(to == slice ? own : others, squared);
         }
         if (energy > tightest.first) tightest = {energy, i};
       }
@@ -204,9 +202,9 @@ inline Grid<std::uint32_t> reference_volume_mask(const VolumeMaskOptions& option
   const std::size_t first = order.size();
   for (std::size_t i = first; i < volume.when_set.size(); ++i) volume.set_largest_void();
   // Of voxels set at equal energies, random bits decide, as many as are left of 30, but 16 at most.
-  const int bits = std::min(16, 30 - static_cast<int>(std::bit_width(static_cast<std::uint64_t>(
-                                         weights.sum() + noise::kVolumeStartLimit) +
-                                         first + 1)));
+  const int bits = std::min(
+      16, 30 - static_cast<int>(std::bit_width(
+                   static_cast<std::uint64_t>(weights.sum() + noise::kVolumeStartLimit) + first + 1)));
   const auto key = [&](std::uint64_t i) {
     const std::uint64_t random = random_bits(options.seed, 3, i / 4) >> (16 * (i % 4)) & ((1u << bits) - 1);
     return std::pair(volume.when_set[i], random);

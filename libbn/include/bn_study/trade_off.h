@@ -12,7 +12,8 @@
 
 namespace bn {
 
-/// A kernel, and three errors of its mask, all of thresholded pictures (bn_study/convergence.h). Less is better.
+/// A kernel, and three errors of its mask, all of thresholded pictures (bn_study/convergence.h). Less is
+/// better.
 struct TradeOff {
   std::string name;  ///< the preset's; empty: a kernel of the sweep
   double slice_share = 0.0;
@@ -28,7 +29,8 @@ struct TradeOff {
 /// Errors: those of spatiotemporal_mask(). Threads: one mask after the other, each by execution.threads.
 std::vector<TradeOff> study_trade_off(Shape size, std::uint64_t seed, const Execution& execution = {});
 
-/// A line each under a line of names: name,slice_share,pixel_share,slice_error,average_error,pixel_error,best.
+/// A line each under a line of names:
+/// name,slice_share,pixel_share,slice_error,average_error,pixel_error,best.
 std::string trade_off_csv(const std::vector<TradeOff>& rows);
 
 }  // namespace bn
