@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -27,15 +28,25 @@ constexpr std::string_view kFigures =
 #include "tools/study_presets.gnuplot.inc"
     ;
 
-/// The presets, and what no other kernel beats.
+/// The presets, and the kernels with the least of each error.
 std::string markdown(const std::vector<TradeOff>& rows) {
   std::string text =
       "| kernel | slice share | pixel share | one slice | average | one pixel |\n|---|---|---|---|---|---|\n";
-  for (const TradeOff& row : rows) {
-    if (row.name.empty() && !row.is_best) continue;
-    text += fmt::format("| {} | {} | {} | {:.4f} | {:.4f} | {:.4f} |\n", row.name, row.slice_share,
+  const auto add = [&](std::string_view name, const TradeOff& row) {
+    text += fmt::format("| {} | {} | {} | {:.4f} | {:.4f} | {:.4f} |\n", name, row.slice_share,
                         row.pixel_share, row.slice_error, row.average_error, row.pixel_error);
+  };
+  for (const TradeOff& row : rows) {
+    if (!row.name.empty()) add(fmt::format("`{}`", row.name), row);
   }
+  const auto add_least = [&](std::string_view name, double TradeOff::*error) {
+    add(name, *std::min_element(rows.begin(), rows.end(), [&](const TradeOff& a, const TradeOff& b) {
+          return a.*error < b.*error;
+        }));
+  };
+  add_least("the best slices", &TradeOff::slice_error);
+  add_least("the best average", &TradeOff::average_error);
+  add_least("the best series", &TradeOff::pixel_error);
   return text;
 }
 
@@ -81,8 +92,9 @@ Verb study_presets_verb() {
       "once. Makes the presets, and masks with slice_share 0..1 crossed with pixel_share 0..2, and measures "
       "what is left of a thresholded picture's error: one slice after a blur, the average of frames after "
       "blur and exponential average, the mean of all slices at one pixel without a blur. Prints the presets "
-      "and every kernel that no other beats in one of the three without losing in another. The folder gets "
-      "presets.csv with all of them, presets.md, and the figures as SVG where gnuplot is installed.";
+      "and the kernels with the least of each. The folder gets presets.csv with all kernels, where `best` "
+      "marks those that no other is better than in all three, presets.md, and the figures as SVG where "
+      "gnuplot is installed.";
   verb.arguments.option("--size", settings->size, extent_in(8, 1024), "Width and height of the masks.");
   verb.arguments.option("--frames", settings->frames, integer_in(2, 1024), "Slices of the masks.");
   verb.arguments.option("--seed", settings->seed, seed_value(), "Another seed gives other masks.");
