@@ -7,7 +7,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "bn/noise.h"
 #include "bn/retarget.h"
+#include "bn/texture.h"
 #include "bn_study/models.h"
 #include "tools/verb.h"
 
@@ -36,12 +38,12 @@ double mean_length(const Grid<Offset>& tile) {
 /// Tiles on a flat picture, seeds and tiles averaged.
 Json tile_rows(const TemporalTextures& base, Session& session) {
   const auto proven = [&](int radius) {
-    return std::vector{solve_retarget(base.mask, {.step = base.step, .radius = radius}).move};
+    return std::vector{solve_retarget(base.mask(0), {.step = base.step, .radius = radius}).move};
   };
   const auto swapped = [&](int radius, std::int64_t energy) {
     std::vector<Grid<Offset>> tiles;
     for (std::uint64_t seed = 1; seed <= 4; ++seed)
-      tiles.push_back(swapped_tile(base.mask, base.step, radius, energy, seed));
+      tiles.push_back(swapped_tile(base.mask(0), base.step, radius, energy, seed));
     return tiles;
   };
   std::vector<Line> lines{{"sort only", proven(6), 8, false},
@@ -77,14 +79,15 @@ Json tile_rows(const TemporalTextures& base, Session& session) {
                                          .retarget = line.retarget,
                                          .frames = kFrames.back(),
                                          .seed = static_cast<std::uint64_t>(run + 1)},
-                                        textures);
+                                        textures)
+                             .power_db;
       for (std::size_t i = 0; i < kFrames.size(); ++i)
         db[i] += power[static_cast<std::size_t>(kFrames[i])] / kSeeds;
     }
     const Grid<Offset>& tile = line.tiles.front();
     Json row{{"tile", line.name}};
     if (line.retarget) {
-      row["energy"] = retarget_energy(base.mask, tile, {.step = base.step, .radius = 16});
+      row["energy"] = retarget_energy(base.mask(0), tile, {.step = base.step, .radius = 16});
       row["mean_move"] = mean_length(tile);
     }
     row["block"] = line.block;
@@ -113,6 +116,83 @@ std::string tile_markdown(const Json& rows) {
   return text;
 }
 
+/// A stack of masks that know nothing of each other.
+TemporalTextures unrelated_masks(int count, const Execution& execution) {
+  TemporalTextures stack;
+  for (int i = 1; i <= count; ++i) {
+    const Image mask =
+        encode_mask(void_and_cluster({.size = {64, 64}, .seed = static_cast<std::uint64_t>(i)}, execution),
+                    SampleType::u8);
+    stack.masks.push_back(levels_of_channel(mask, 0).value);
+  }
+  return stack;
+}
+
+/// One mask that moves against stacks of masks, on a flat picture: single frames and their average.
+Json stack_rows(const TemporalTextures& base, Session& session) {
+  std::vector<std::pair<std::string, TemporalTextures>> sources{
+      {"one mask, moved", base}, {"32 unrelated masks", unrelated_masks(32, session.execution)}};
+  for (const auto preset :
+       {SpatiotemporalPreset::stbn, SpatiotemporalPreset::filtered, SpatiotemporalPreset::both})
+    sources.emplace_back(name_of(preset), make_preset_textures(preset, session.execution));
+  Json rows = Json::array();
+  for (const auto& [radius, block] : {std::pair{6, 8}, {10, 8}, {6, 16}}) {
+    for (auto& [name, textures] : sources) {
+      solve_moves(textures, radius, session.execution);
+      double energy = 0.0;
+      for (std::int64_t t = 0; t < std::ssize(textures.masks); ++t) {
+        const auto of_tile =
+            retarget_energy({textures.mask(t), textures.mask(t + 1)}, textures.move({0, 0}, t),
+                            {.step = textures.step, .radius = radius});
+        energy += static_cast<double>(of_tile) / static_cast<double>(textures.masks.size());
+      }
+      std::vector<FlatRun> runs(kSeeds);
+      parallel_for(session.execution, kSeeds, [&, block = block](std::int64_t run) {
+        throw_if_stopped(session.execution);
+        runs[static_cast<std::size_t>(run)] = run_flat_model(
+            {.block = block, .frames = kFrames.back(), .seed = static_cast<std::uint64_t>(run + 1)},
+            textures);
+      });
+      const auto means = [&](std::vector<double> FlatRun::*db) {
+        std::array<double, kFrames.size()> mean{};
+        for (const FlatRun& run : runs) {
+          for (std::size_t i = 0; i < kFrames.size(); ++i)
+            mean[i] += (run.*db)[static_cast<std::size_t>(kFrames[i])] / kSeeds;
+        }
+        return mean;
+      };
+      rows.push_back({{"masks", name},
+                      {"radius", radius},
+                      {"block", block},
+                      {"energy", energy},
+                      {"frames", kFrames},
+                      {"db", means(&FlatRun::power_db)},
+                      {"averaged_db", means(&FlatRun::averaged_db)},
+                      {"averaged_blurred_db", means(&FlatRun::averaged_blurred_db)}});
+    }
+  }
+  return rows;
+}
+
+std::string stack_markdown(const Json& rows) {
+  std::string text = "| masks | radius | block | energy |";
+  for (const char* what : {"", "averaged, ", "averaged and blurred, "}) {
+    for (const int frame : kFrames) text += fmt::format(" {}{} |", what, frame);
+  }
+  text += "\n|---|---|---|---|";
+  for (std::size_t i = 0; i < 3 * kFrames.size(); ++i) text += "---|";
+  text += "\n";
+  for (const Json& row : rows) {
+    text += fmt::format("| {} | {} | {} | {:.0f} |", row["masks"].get<std::string>(),
+                        row["radius"].get<int>(), row["block"].get<int>(), row["energy"].get<double>());
+    for (const char* what : {"db", "averaged_db", "averaged_blurred_db"}) {
+      for (const Json& value : row[what]) text += fmt::format(" {:.1f} |", value.get<double>());
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 /// The poster model: plain and reprojected retarget, over pans, tiles, edges and what is sorted by.
 Json pan_rows(const TemporalTextures& base, Session& session) {
   Json rows = Json::array();
@@ -121,7 +201,7 @@ Json pan_rows(const TemporalTextures& base, Session& session) {
     textures.motion_range = 4;
     textures.moves.clear();
     for (RetargetTile& tile :
-         solve_motion_set(base.mask, {.step = base.step, .radius = radius}, 4, session.execution))
+         solve_motion_set(base.mask(0), {.step = base.step, .radius = radius}, 4, session.execution))
       textures.moves.push_back(std::move(tile.move));
     for (const auto edge : {PosterModel::Edge::colour, PosterModel::Edge::surface}) {
       for (const bool by_light : {false, true}) {
@@ -179,23 +259,29 @@ Verb study_temporal_verb() {
   Verb verb;
   verb.name = "study temporal";
   verb.summary = "Measure what retarget tiles bring on model pictures whose error is known exactly.";
-  verb.examples = {{"bn study temporal", "the tables of docs/validation.md, two minutes"}};
+  verb.examples = {{"bn study temporal", "the tables of docs/validation.md, some minutes"}};
   verb.details =
       "Power of the error at 0 < f <= 0.1 cycles per pixel against white noise, dB, the mean of eight sets "
       "of seeds. "
-      "First tiles on a flat picture of 256 x 256, by frame; then a poster under a pan, where plain and "
+      "First tiles on a flat picture of 256 x 256, by frame; then one moved mask against stacks of masks "
+      "there, also by the error of an exponential average (0.1), without and with a blur of 1.5 pixels, "
+      "against "
+      "white noise's; then a poster under a pan, where plain and "
       "reprojected "
       "retarget are compared by radius, kind of edge, what is sorted by, and speed, frames 8 to 16. Mask and "
       "tiles "
       "are made on the spot: 64 x 64, 8 bit.";
   const auto json = std::make_shared<bool>(false);
-  verb.arguments.flag("--json", *json, true, "Print the rows of both tables as JSON.");
+  verb.arguments.flag("--json", *json, true, "Print the rows of all tables as JSON.");
   verb.run = [json](Session& session) {
     const TemporalTextures base = make_temporal_textures(0, session.execution);
     const Json tiles = tile_rows(base, session);
     if (!*json) session.output.write(tile_markdown(tiles) + "\n");
+    const Json stacks = stack_rows(base, session);
+    if (!*json) session.output.write(stack_markdown(stacks) + "\n");
     const Json pans = pan_rows(base, session);
-    if (*json) return session.output.write_result({{"tiles", tiles}, {"pans", pans}}, true);
+    if (*json)
+      return session.output.write_result({{"tiles", tiles}, {"stacks", stacks}, {"pans", pans}}, true);
     session.output.write(pan_markdown(pans));
   };
   return verb;

@@ -17,7 +17,7 @@ double power_at(int frame, int block, bool retarget, const TemporalTextures& tex
   double sum = 0.0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     sum += run_flat_model({.block = block, .retarget = retarget, .frames = frame, .seed = seed}, textures)
-               .back();
+               .power_db.back();
   }
   return sum / 4.0;
 }
@@ -27,7 +27,7 @@ double frame_8(int block, bool retarget, const TemporalTextures& textures) {
 }
 
 TEST(FlatModel, FirstFrameIsWhiteNoise) {
-  const auto power = run_flat_model({.frames = 0}, test::proven_textures());
+  const auto power = run_flat_model({.frames = 0}, test::proven_textures()).power_db;
   EXPECT_NEAR(power.at(0), 0.0, 0.4);  // about 2000 frequencies: one standard deviation is 0.1 dB
 }
 
@@ -51,7 +51,7 @@ constexpr std::int64_t kPublishedEnergy = 10316;
 
 TEST(FlatModel, ProvenTileBeatsThePublishedEnergyOfShortMoves) {
   TemporalTextures short_moves = test::proven_textures();
-  const RetargetTile tile = solve_retarget(short_moves.mask, {.step = kStep, .radius = 3});
+  const RetargetTile tile = solve_retarget(short_moves.mask(0), {.step = kStep, .radius = 3});
   EXPECT_LE(tile.energy, kPublishedEnergy);
   EXPECT_GE(tile.energy, kPublishedEnergy * 95 / 100) << "worse than published: the comparison would flatter";
   short_moves.moves = {tile.move};
@@ -60,9 +60,9 @@ TEST(FlatModel, ProvenTileBeatsThePublishedEnergyOfShortMoves) {
 
 TEST(FlatModel, ProvenTileBeatsThePublishedEnergyOfLongMoves) {
   TemporalTextures swapped = test::proven_textures();
-  swapped.moves = {swapped_tile(swapped.mask, kStep, 6, kPublishedEnergy, 1)};
+  swapped.moves = {swapped_tile(swapped.mask(0), kStep, 6, kPublishedEnergy, 1)};
   swapped.check();
-  const std::int64_t energy = retarget_energy(swapped.mask, swapped.moves[0], {.step = kStep});
+  const std::int64_t energy = retarget_energy(swapped.mask(0), swapped.moves[0], {.step = kStep});
   EXPECT_LE(energy, kPublishedEnergy);
   EXPECT_GE(energy, kPublishedEnergy * 95 / 100);
   EXPECT_LE(frame_8(8, true, test::proven_textures()), frame_8(8, true, swapped) - 1.0);
@@ -73,9 +73,9 @@ TEST(FlatModel, ProvenTileBeatsThePublishedEnergyOfLongMoves) {
 // those to be had now. A proven tile may reach further, at no cost to the renderer.
 TEST(FlatModel, AProvenTileOfRadiusTenBeatsThePublishedOneByThreeDecibels) {
   TemporalTextures published = test::proven_textures();
-  published.moves = {swapped_tile(published.mask, kStep, 6, 9444, 2)};
+  published.moves = {swapped_tile(published.mask(0), kStep, 6, 9444, 2)};
   TemporalTextures proven = test::proven_textures();
-  proven.moves = {solve_retarget(proven.mask, {.step = kStep, .radius = 10}).move};
+  proven.moves = {solve_retarget(proven.mask(0), {.step = kStep, .radius = 10}).move};
   EXPECT_LE(frame_8(8, true, proven), frame_8(8, true, published) - 3.0);
 }
 
@@ -94,7 +94,7 @@ TEST(PosterModel, ASlowPanCarriesNoMoreSeedsOverEdgesThanTheTileDoes) {
   TemporalTextures textures = test::proven_textures();
   textures.motion_range = 1;
   textures.moves.clear();
-  for (RetargetTile& tile : solve_motion_set(textures.mask, {.step = kStep}, 1, {.threads = 1}))
+  for (RetargetTile& tile : solve_motion_set(textures.mask(0), {.step = kStep}, 1, {.threads = 1}))
     textures.moves.push_back(std::move(tile.move));
   const PosterModel plain{.pan_px = 1.25};
   PosterModel reprojected = plain;

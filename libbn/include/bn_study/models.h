@@ -24,9 +24,13 @@ struct FlatModel {
   std::uint64_t seed = 1;
 };
 
-/// For frame 0 (white noise) to `frames`: power of the values at 0 < f <= 0.1 cycles per pixel
-/// against white noise of the same variance, in dB.
-std::vector<double> run_flat_model(const FlatModel& model, const TemporalTextures& textures);
+/// For frame 0 (white noise) to `frames`, against white noise that is treated alike, in dB.
+struct FlatRun {
+  std::vector<double> power_db;             ///< of a frame's values at 0 < f <= 0.1 cycles per pixel
+  std::vector<double> averaged_db;          ///< mean square error of the exponential average over frames, 0.1
+  std::vector<double> averaged_blurred_db;  ///< and of that after a blur of 1.5 pixels
+};
+FlatRun run_flat_model(const FlatModel& model, const TemporalTextures& textures);
 
 /// A poster of three by two light and dark cells on a wall, under a pan, without a renderer: what edges and
 /// motion do to the algorithm, with the true picture known exactly.
