@@ -7,9 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bn/noise.h"
 #include "bn/retarget.h"
-#include "bn/texture.h"
 #include "bn_study/models.h"
 #include "tools/verb.h"
 
@@ -116,75 +114,36 @@ std::string tile_markdown(const Json& rows) {
   return text;
 }
 
-/// A stack of masks that know nothing of each other.
-TemporalTextures unrelated_masks(int count, const Execution& execution) {
-  TemporalTextures stack;
-  for (int i = 1; i <= count; ++i) {
-    const Image mask =
-        encode_mask(void_and_cluster({.size = {64, 64}, .seed = static_cast<std::uint64_t>(i)}, execution),
-                    SampleType::u8);
-    stack.masks.push_back(levels_of_channel(mask, 0).value);
-  }
-  return stack;
-}
+constexpr std::array kLateFrames{8, 16, 32, 64};
 
-/// One mask that moves against stacks of masks, on a flat picture: single frames and their average.
 Json stack_rows(const TemporalTextures& base, Session& session) {
-  std::vector<std::pair<std::string, TemporalTextures>> sources{
-      {"one mask, moved", base}, {"32 unrelated masks", unrelated_masks(32, session.execution)}};
-  for (const auto preset :
-       {SpatiotemporalPreset::stbn, SpatiotemporalPreset::filtered, SpatiotemporalPreset::both})
-    sources.emplace_back(name_of(preset), make_preset_textures(preset, session.execution));
   Json rows = Json::array();
-  for (const auto& [radius, block] : {std::pair{6, 8}, {10, 8}, {6, 16}}) {
-    for (auto& [name, textures] : sources) {
-      solve_moves(textures, radius, session.execution);
-      double energy = 0.0;
-      for (std::int64_t t = 0; t < std::ssize(textures.masks); ++t) {
-        const auto of_tile =
-            retarget_energy({textures.mask(t), textures.mask(t + 1)}, textures.move({0, 0}, t),
-                            {.step = textures.step, .radius = radius});
-        energy += static_cast<double>(of_tile) / static_cast<double>(textures.masks.size());
-      }
-      std::vector<FlatRun> runs(kSeeds);
-      parallel_for(session.execution, kSeeds, [&, block = block](std::int64_t run) {
-        throw_if_stopped(session.execution);
-        runs[static_cast<std::size_t>(run)] = run_flat_model(
-            {.block = block, .frames = kFrames.back(), .seed = static_cast<std::uint64_t>(run + 1)},
-            textures);
-      });
-      const auto means = [&](std::vector<double> FlatRun::*db) {
-        std::array<double, kFrames.size()> mean{};
-        for (const FlatRun& run : runs) {
-          for (std::size_t i = 0; i < kFrames.size(); ++i)
-            mean[i] += (run.*db)[static_cast<std::size_t>(kFrames[i])] / kSeeds;
-        }
-        return mean;
-      };
-      rows.push_back({{"masks", name},
-                      {"radius", radius},
-                      {"block", block},
-                      {"energy", energy},
-                      {"frames", kFrames},
-                      {"db", means(&FlatRun::power_db)},
-                      {"averaged_db", means(&FlatRun::averaged_db)},
-                      {"averaged_blurred_db", means(&FlatRun::averaged_blurred_db)}});
-    }
+  for (const StackRow& row : study_stacks(base, kLateFrames, session.execution)) {
+    rows.push_back({{"masks", row.masks},
+                    {"floor_db", row.floor_db},
+                    {"radius", row.radius},
+                    {"block", row.block},
+                    {"energy", row.energy},
+                    {"frames", kLateFrames},
+                    {"db", row.db},
+                    {"averaged_db", row.averaged_db},
+                    {"averaged_blurred_db", row.averaged_blurred_db}});
   }
   return rows;
 }
 
 std::string stack_markdown(const Json& rows) {
-  std::string text = "| masks | radius | block | energy |";
-  for (const char* what : {"", "averaged, ", "averaged and blurred, "}) {
-    for (const int frame : kFrames) text += fmt::format(" {}{} |", what, frame);
+  std::string text = "| masks | floor | radius | block | energy |";
+  for (const char* what : {"frame", "averaged,", "averaged and blurred,"}) {
+    for (const int frame : kLateFrames) text += fmt::format(" {} {} |", what, frame);
   }
-  text += "\n|---|---|---|---|";
-  for (std::size_t i = 0; i < 3 * kFrames.size(); ++i) text += "---|";
+  text += "\n|---|---|---|---|---|";
+  for (std::size_t i = 0; i < 3 * kLateFrames.size(); ++i) text += "---|";
   text += "\n";
   for (const Json& row : rows) {
-    text += fmt::format("| {} | {} | {} | {:.0f} |", row["masks"].get<std::string>(),
-                        row["radius"].get<int>(), row["block"].get<int>(), row["energy"].get<double>());
+    text += fmt::format("| {} | {:.1f} | {} | {} | {:.0f} |", row["masks"].get<std::string>(),
+                        row["floor_db"].get<double>(), row["radius"].get<int>(), row["block"].get<int>(),
+                        row["energy"].get<double>());
     for (const char* what : {"db", "averaged_db", "averaged_blurred_db"}) {
       for (const Json& value : row[what]) text += fmt::format(" {:.1f} |", value.get<double>());
     }

@@ -79,6 +79,33 @@ TEST(FlatModel, AProvenTileOfRadiusTenBeatsThePublishedOneByThreeDecibels) {
   EXPECT_LE(frame_8(8, true, proven), frame_8(8, true, published) - 3.0);
 }
 
+// A stack with blue series against one mask that moves, at equal radius: each pixel's average over frames is
+// far better, the blurred one somewhat; the single frame is no better, and later worse.
+TEST(FlatModel, AStackBeatsTheMovedMaskInTheAverageAndNotInTheFrame) {
+  TemporalTextures both = make_preset_textures(SpatiotemporalPreset::both);
+  solve_moves(both, 6);
+  double averaged = 0.0, blurred = 0.0, frame_8 = 0.0, frame_64 = 0.0;  // against the moved mask, dB
+  for (const std::uint64_t seed : {1, 2}) {
+    const FlatModel model{.block = 16, .frames = 64, .seed = seed};
+    const FlatRun stack = run_flat_model(model, both), moved = run_flat_model(model, test::proven_textures());
+    averaged += (stack.averaged_db.back() - moved.averaged_db.back()) / 2;
+    blurred += (stack.averaged_blurred_db.back() - moved.averaged_blurred_db.back()) / 2;
+    frame_8 += (stack.power_db[8] - moved.power_db[8]) / 2;
+    frame_64 += (stack.power_db.back() - moved.power_db.back()) / 2;
+  }
+  EXPECT_LE(averaged, -9.0);
+  EXPECT_LE(blurred, -2.0);
+  EXPECT_NEAR(frame_8, 0.5, 1.0);
+  EXPECT_GE(frame_64, 4.0);
+}
+
+// The first frame is white noise, and so is the average at first: all of it, then less than white noise's.
+TEST(FlatModel, AveragesAreHeldAgainstWhiteNoise) {
+  const FlatRun run = run_flat_model({.frames = 0}, test::proven_textures());
+  EXPECT_EQ(run.averaged_db, std::vector{0.0});
+  EXPECT_EQ(run.averaged_blurred_db, std::vector{0.0});
+}
+
 double poster_db(PosterModel model, const TemporalTextures& textures) {
   double sum = 0.0;
   for (model.seed = 1; model.seed <= 3; ++model.seed) {
