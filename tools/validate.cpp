@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 #include "bn/error.h"
@@ -22,7 +23,7 @@ struct Settings {
   StudyOptions study;
   std::string device = "lavapipe";
   std::filesystem::path textures;
-  std::filesystem::path slices;
+  std::filesystem::path slices, slice_tiles;
   std::optional<Offset> step;
   bool unsafe = false;
   bool quick = false;
@@ -60,10 +61,68 @@ void check_scene_name(const std::string& scene) {
                .remedy = nearest.empty() ? "" : fmt::format("did you mean {}?", nearest)});
 }
 
+constexpr std::array kPresets{SpatiotemporalPreset::stbn, SpatiotemporalPreset::filtered,
+                              SpatiotemporalPreset::both};
+constexpr int kRadius = 6;                 // of tiles that are made on the spot
+const std::string kGivenStack = "slices";  // the stack of --slices
+
+/// The presets, and the stack that may be given.
+std::vector<StudyMethod> known_methods(bool with_given) {
+  std::vector<std::string> stacks;
+  for (const auto preset : kPresets) stacks.emplace_back(name_of(preset));
+  if (with_given) stacks.push_back(kGivenStack);
+  return study_methods(stacks);
+}
+
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  for (const Method method : kMethods) names.emplace_back(name_of(method));
+  for (const StudyMethod& method : known_methods(true)) names.push_back(method.name());
   return names;
+}
+
+/// Those that were asked for and white noise, which the others are measured against; or all.
+std::vector<StudyMethod> chosen_methods(const Settings& settings) {
+  const std::vector<std::string>& names = settings.methods;
+  std::vector<StudyMethod> methods = known_methods(names.empty() ? !settings.slices.empty() : true);
+  if (names.empty()) return methods;
+  std::erase_if(methods, [&](const StudyMethod& method) {
+    return !(method.method == Method::white) &&
+           std::find(names.begin(), names.end(), method.name()) == names.end();
+  });
+  for (const StudyMethod& method : methods) {
+    if (method.stack != kGivenStack || !settings.slices.empty()) continue;
+    throw Error({.code = ErrorCode::usage,
+                 .what = fmt::format("the method {} needs a stack of masks", method.name()),
+                 .where = "--method",
+                 .limit = "",
+                 .remedy = "name one with --slices"});
+  }
+  return methods;
+}
+
+/// The stacks that the methods name, with tiles where seeds are carried.
+std::vector<StudyStack> stacks_of(const Settings& settings, const TemporalTextures& given, Session& session) {
+  std::vector<StudyStack> stacks;
+  const auto add = [&](const std::string& name, const auto& make) {
+    const std::vector<StudyMethod>& methods = settings.study.methods;
+    const auto uses = [&](bool carries) {
+      return std::any_of(methods.begin(), methods.end(), [&](const StudyMethod& method) {
+        return method.stack == name && (!carries || method.method == Method::retarget);
+      });
+    };
+    if (!uses(false)) return;
+    TemporalTextures textures = make();
+    if (uses(true) && textures.moves.empty())
+      solve_moves(textures, kRadius, session.execution_showing(fmt::format("tiles of {}", name)));
+    session.progress.finish();
+    stacks.push_back({name, std::move(textures)});
+  };
+  add(kGivenStack, [&] { return given; });
+  for (const auto preset : kPresets) {
+    const std::string name(name_of(preset));
+    add(name, [&] { return make_preset_textures(preset, session.execution_showing(name)); });
+  }
+  return stacks;
 }
 
 void run(Settings& settings, Session& session) {
@@ -71,22 +130,21 @@ void run(Settings& settings, Session& session) {
   check_scene_name(settings.scene);
   study.scenes = settings.scene == "all" ? shipped_scene_names() : std::vector<std::string>{settings.scene};
   for (const std::string& scene : study.scenes) load_scene(scene);  // wrong ones fail before the work starts
-  if (!settings.methods.empty()) {
-    study.methods.clear();
-    for (const Method method : kMethods) {
-      const auto& chosen = settings.methods;
-      if (std::find(chosen.begin(), chosen.end(), name_of(method)) != chosen.end())
-        study.methods.push_back(method);
-    }
-    study.variations = false;
-    // White noise is what the others are measured against.
-    if (std::find(study.methods.begin(), study.methods.end(), Method::white) == study.methods.end())
-      study.methods.insert(study.methods.begin(), Method::white);
+  study.methods = chosen_methods(settings);
+  if (!settings.methods.empty()) study.variations = false;
+  if (!settings.slice_tiles.empty() && settings.slices.empty()) {
+    throw Error({.code = ErrorCode::usage,
+                 .what = "tiles of a stack without the stack",
+                 .where = "--slice-tiles",
+                 .limit = "with --slices only",
+                 .remedy = ""});
   }
   if (settings.quick) study.make_quick();
   std::shared_ptr<VulkanDevice> device;
   if (settings.device != "cpu") device = open_vulkan_device(settings.device);
-  TemporalTextures textures;
+  TemporalTextures textures, given;
+  if (!settings.slices.empty())
+    given = read_stack_textures(settings.slices, settings.slice_tiles, session.execution);
   if (settings.textures.empty()) {
     textures = make_temporal_textures(4, session.execution_showing("textures"));
     if (settings.step && !(*settings.step == textures.step)) {
@@ -100,7 +158,7 @@ void run(Settings& settings, Session& session) {
   } else {
     textures = read_temporal_textures(settings.textures, settings.step, settings.unsafe, session.execution);
   }
-  if (!settings.slices.empty()) textures.slices = read_slices(settings.slices, session.execution);
+  study.stacks = stacks_of(settings, given, session);
   run_study(study, textures, device, settings.out, session.execution_showing("validate"));
   session.progress.finish();
   write_study_report(settings.out, settings.out / "report.html", session.execution);
@@ -108,7 +166,7 @@ void run(Settings& settings, Session& session) {
   for (const char* table : {"summary.csv", "errors.csv", "radial.csv", "passes.csv"})
     result["tables"].push_back((settings.out / table).string());
   result["scenes"] = study.scenes;
-  for (const Method method : study.methods) result["methods"].push_back(name_of(method));
+  for (const StudyMethod& method : study.methods) result["methods"].push_back(method.name());
   if (settings.json) return session.output.write_result(result, true);
   session.output.tell(fmt::format("report  {}\n", result["report"].get<std::string>()));
 }
@@ -127,10 +185,10 @@ Verb validate_verb() {
                     "a scene of your own, one method against white noise"},
                    {"bn validate room --device gpu --size 1920x1080 -o study", "on a graphics card"}};
   verb.details =
-      "Each scene is rendered with one path a pixel, with white noise, with masks used in simpler ways, and "
-      "with "
-      "the temporal algorithm: sort, sort and retarget, and retarget with the tile for the picture's motion. "
-      "The "
+      "Each scene is rendered with one path a pixel, with white noise, with masks used in simpler ways, with "
+      "the spatiotemporal presets (64x64x32, a slice a frame), and with the temporal algorithm: sort, sort "
+      "and retarget, retarget with the tile for the picture's motion, and retarget from slice to slice of "
+      "each preset. The "
       "errors against a converged picture, their spectra and the cost of every pass go into CSV files, "
       "pictures, "
       "a page (report.html) and its tables alone (report.md).\n\n"
@@ -147,8 +205,12 @@ Verb validate_verb() {
   verb.arguments.option(
       "--textures", settings->textures, folder_path(),
       "Folder with mask.png and retarget_atlas.png of a bake; without it they are made on the spot.");
-  verb.arguments.option("--slices", settings->slices, folder_path(),
-                        "Folder with a stack of masks, an image a slice in name order: the method slices.");
+  verb.arguments.option(
+      "--slices", settings->slices, file_path(),
+      "A stack of masks (a folder, slice_%03d.png, a file): methods slices, retarget-slices.");
+  verb.arguments.option(
+      "--slice-tiles", settings->slice_tiles, file_path(),
+      "Its retarget tiles, as bn retarget makes them; without it they are made on the spot.");
   verb.arguments.option("--step", settings->step, offset_or_auto(),
                         "The dither step; must be the one the tiles were baked for, which auto takes.");
   verb.arguments.flag("--unsafe", settings->unsafe, true,

@@ -22,8 +22,6 @@ struct PlainFrame {
   GBuffer& gbuffer;
   Grid<float> luminance;
   Frame result;
-
-  Offset shift_at(int frame) const { return tile_shift(textures.mask.size(), textures.step, frame); }
 };
 
 namespace on_processor {
@@ -38,8 +36,9 @@ void choose_motion(PlainFrame& frame) {
 }
 
 void retarget(PlainFrame& frame) {
-  frame.seeds = retarget_seeds(frame.seeds, frame.textures.move(frame.result.motion),
-                               frame.shift_at(frame.number - 1), frame.execution);
+  const int before = frame.number - 1;
+  frame.seeds = retarget_seeds(frame.seeds, frame.textures.move(frame.result.motion, before),
+                               frame.textures.shift(before), frame.execution);
 }
 
 void trace(PlainFrame& frame) {
@@ -51,7 +50,8 @@ void trace(PlainFrame& frame) {
 
 void sort(PlainFrame& frame) {
   const RenderSettings& settings = frame.settings;
-  sort_seeds(frame.seeds, frame.luminance, frame.textures.mask, frame.shift_at(frame.number),
+  sort_seeds(frame.seeds, frame.luminance, frame.textures.mask(frame.number),
+             frame.textures.shift(frame.number),
              sort_blocks(settings.block, settings.jitter, settings.seed, frame.number), frame.execution);
 }
 
@@ -71,7 +71,7 @@ class PlainRenderer final : public Renderer {
         execution_(execution),
         padded_(check_rendering(scene, textures, settings)),
         packed_(pack_scene(scene)),
-        levels_(levels_to_sample(textures, settings.method.sampler)),
+        levels_(levels_of(textures)),
         seeds_(seeds_of_sequence(padded_, settings.seed)),
         digest_(multiset_digest(seeds_)),
         gbuffer_(settings.screen) {}

@@ -19,10 +19,13 @@ struct NamedMethod {
   std::string_view name;
 };
 constexpr NamedMethod kNames[] = {
-    {Method::white, "white"},           {Method::mask_still, "mask-still"},
-    {Method::mask_moved, "mask-moved"}, {Method::mask_golden, "mask-golden"},
-    {Method::slices, "slices"},         {Method::sort, "sort"},
-    {Method::retarget, "retarget"},     {Method::reproject, "reproject"},
+    {Method::white, "white"},
+    {Method::mask_still, "mask-still"},
+    {Method::mask_moved, "mask-moved"},
+    {Method::mask_golden, "mask-golden"},
+    {Method::sort, "sort"},
+    {Method::retarget, "retarget"},
+    {Method::reproject, "reproject"},
 };
 
 }  // namespace
@@ -49,14 +52,13 @@ Extent check_rendering(const Scene& scene, const TemporalTextures& textures, con
     refuse("paths", fmt::format("{} paths", settings.paths), "1..64");
   sort_blocks(settings.block, false, 0, 0);  // refuses other sides
   const auto [sampler, transport] = settings.method;
-  if (sampler == Sampler::slices && textures.slices.empty()) refuse("slices", "no stack of masks", "");
   if (transport != SeedTransport::none && sampler != Sampler::seeds) {
     refuse("method", "seeds that are carried to the next frame but not sampled",
            "transport only with the sampler of seeds");
   }
   const bool needs_tile = transport == SeedTransport::retarget || transport == SeedTransport::reproject;
   if (needs_tile && textures.moves.empty()) refuse("textures", "no retarget tile", "");
-  return padded_extent(settings.screen, textures.mask.size());
+  return padded_extent(settings.screen, textures.size());
 }
 
 Seeds seeds_of_sequence(Extent padded, std::uint64_t seed) {

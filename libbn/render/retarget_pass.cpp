@@ -29,6 +29,11 @@ int rounded_mean(std::int64_t sum, std::int64_t count, int range) {
   return static_cast<int>(std::clamp<std::int64_t>(mean, -range, range));
 }
 
+std::size_t variants_of(int motion_range) {
+  const auto side = static_cast<std::size_t>(2 * motion_range + 1);
+  return side * side;
+}
+
 [[noreturn]] void refuse(std::string what, std::string limit) {
   throw Error({.code = ErrorCode::invalid_input,
                .what = std::move(what),
@@ -40,29 +45,27 @@ int rounded_mean(std::int64_t sum, std::int64_t count, int range) {
 }  // namespace
 
 void TemporalTextures::check() const {
-  if (mask.count() == 0) refuse("the mask is empty", "");
-  const auto [low, high] = std::minmax_element(mask.begin(), mask.end());
-  if (*low < 0 || *high > 65535) refuse(fmt::format("mask levels {}..{}", *low, *high), "0..65535");
-  for (const Grid<std::int32_t>& slice : slices) {
-    if (slice.count() == 0 || slice.size() != slices.front().size()) {
-      refuse(fmt::format("a slice of {}x{} after {}x{}", slice.width(), slice.height(),
-                         slices.front().width(), slices.front().height()),
-             "slices of one size");
+  if (masks.empty() || masks.front().count() == 0) refuse("the mask is empty", "");
+  for (const Grid<std::int32_t>& mask : masks) {
+    if (mask.size() != size()) {
+      refuse(fmt::format("a mask of {}x{} after {}x{}", mask.width(), mask.height(), size().width,
+                         size().height),
+             "masks of one size");
     }
-    const auto [least, most] = std::minmax_element(slice.begin(), slice.end());
-    if (*least < 0 || *most > 65535) refuse(fmt::format("slice levels {}..{}", *least, *most), "0..65535");
+    const auto [low, high] = std::minmax_element(mask.begin(), mask.end());
+    if (*low < 0 || *high > 65535) refuse(fmt::format("mask levels {}..{}", *low, *high), "0..65535");
   }
   if (motion_range < 0 || motion_range > 8) refuse(fmt::format("motion range {}", motion_range), "0..8");
-  const auto variants = static_cast<std::size_t>((2 * motion_range + 1) * (2 * motion_range + 1));
-  if (!(moves.empty() && motion_range == 0) && moves.size() != variants) {
+  const std::size_t tiles = masks.size() * variants_of(motion_range);
+  if (!(moves.empty() && motion_range == 0) && moves.size() != tiles) {
     refuse(fmt::format("{} retarget tiles", moves.size()),
-           fmt::format("{} for motion range {}", variants, motion_range));
+           fmt::format("{} for {} masks and motion range {}", tiles, masks.size(), motion_range));
   }
   for (std::size_t i = 0; i < moves.size(); ++i) {
     const Grid<Offset>& tile = moves[i];
-    if (tile.size() != mask.size()) {
+    if (tile.size() != size()) {
       refuse(fmt::format("retarget tile {} is {}x{}", i, tile.width(), tile.height()),
-             fmt::format("the mask's {}x{}", mask.width(), mask.height()));
+             fmt::format("the mask's {}x{}", size().width, size().height));
     }
     std::vector<bool> taken(tile.count(), false);
     for (int y = 0; y < tile.height(); ++y) {
@@ -82,9 +85,16 @@ void TemporalTextures::check() const {
   }
 }
 
-const Grid<Offset>& TemporalTextures::move(Offset motion) const {
+std::size_t TemporalTextures::mask_index(std::int64_t frame) const {
+  return static_cast<std::size_t>(frame) % masks.size();
+}
+
+Offset TemporalTextures::shift(std::int64_t frame) const { return tile_shift(size(), step, frame); }
+
+const Grid<Offset>& TemporalTextures::move(Offset motion, std::int64_t frame) const {
   const int side = 2 * motion_range + 1;
-  return moves.at(static_cast<std::size_t>((motion.y + motion_range) * side + motion.x + motion_range));
+  const auto variant = static_cast<std::size_t>((motion.y + motion_range) * side + motion.x + motion_range);
+  return moves.at(mask_index(frame) * variants_of(motion_range) + variant);
 }
 
 Offset tile_shift(Extent tile, Offset step, std::int64_t frame) {

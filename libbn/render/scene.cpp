@@ -68,10 +68,9 @@ PackedScene pack_scene(const Scene& scene) {
   return packed;
 }
 
-std::vector<std::int32_t> levels_to_sample(const TemporalTextures& textures, Sampler sampler) {
-  if (sampler != Sampler::slices) return {textures.mask.begin(), textures.mask.end()};
+std::vector<std::int32_t> levels_of(const TemporalTextures& textures) {
   std::vector<std::int32_t> levels;
-  for (const auto& slice : textures.slices) levels.insert(levels.end(), slice.begin(), slice.end());
+  for (const auto& mask : textures.masks) levels.insert(levels.end(), mask.begin(), mask.end());
   return levels;
 }
 
@@ -103,11 +102,9 @@ FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
   constants.sort_by_light = settings.sort_by_light ? 1 : 0;
   constants.paths = settings.paths;
   const Sampler sampler = settings.method.sampler;
-  const bool by_slices = sampler == Sampler::slices;
   const bool by_mask = sampler != Sampler::white && sampler != Sampler::seeds;
   constants.sampling = by_mask ? 1 : 0;
-  // White noise gets new seeds each frame; a mask turns one point, which is new each frame only where
-  // the mask itself is neither moved nor turned in time.
+  // White noise gets new seeds each frame; a mask turns one point, the same for all frames.
   const auto random = [&](int draw) {
     return static_cast<std::uint32_t>(
         random_bits(settings.seed, kMethodStream, static_cast<std::uint64_t>(draw)));
@@ -115,20 +112,17 @@ FrameConstants frame_constants(const Scene& scene, const PackedScene& packed,
   if (sampler == Sampler::white) constants.frame_key = random(frame);
   if (by_mask) constants.frame_key = random(0);
   int highest = 0;
-  for (const std::int32_t level : levels_to_sample(textures, sampler)) highest = std::max(highest, level);
+  for (const std::int32_t level : levels_of(textures)) highest = std::max(highest, level);
   constants.level_shift = highest < 256 ? 23 - 8 : 23 - 16;
   if (sampler == Sampler::mask_golden) {
     constants.rotation = static_cast<std::uint32_t>(frame) * kGoldenRatio24 & 0xFFFFFFu;
   }
-  const Grid<std::int32_t>& sampled = by_slices ? textures.slices.front() : textures.mask;
-  constants.tile_width = sampled.width();
-  constants.tile_height = sampled.height();
-  if (by_slices) {
-    const auto slice = static_cast<std::size_t>(frame) % textures.slices.size();
-    constants.first_level = static_cast<std::int32_t>(slice * sampled.count());
-  }
+  constants.tile_width = textures.size().width;
+  constants.tile_height = textures.size().height;
   if (sampler == Sampler::mask_moved) {
-    const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
+    constants.first_level =
+        static_cast<std::int32_t>(textures.mask_index(frame) * textures.mask(frame).count());
+    const Offset shift = textures.shift(frame);
     constants.shift_x = shift.x;
     constants.shift_y = shift.y;
   }

@@ -20,8 +20,8 @@ struct PackedScene {
 };
 PackedScene pack_scene(const Scene& scene);
 
-/// What pixels sample by a mask: the mask's levels, or those of all slices, one after the other.
-std::vector<std::int32_t> levels_to_sample(const TemporalTextures& textures, Sampler sampler);
+/// The levels of all masks, one after the other.
+std::vector<std::int32_t> levels_of(const TemporalTextures& textures);
 
 /// The constants of frame `frame`: counts, camera now and one frame before (at frame 0: now), and
 /// how pixels get their random numbers.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "bn/error.h"
+#include "render/scene.h"
 #include "render/shaders.h"
 
 namespace bn::render {
@@ -20,11 +21,11 @@ IntVec2 ivec2(Extent extent) { return {extent.width, extent.height}; }
 // The push constants of the shaders, member by member (std430 has no gaps here).
 struct SortPush {
   IntVec2 screen, tile, shift, origin;
-  std::int32_t seed_pitch, columns, blocks;
+  std::int32_t seed_pitch, columns, blocks, mask;
 };
 struct RetargetPush {
   IntVec2 size, tile, shift;
-  std::int32_t motion_range;
+  std::int32_t motion_range, mask;
 };
 struct MotionSumPush {
   std::int32_t pixels;
@@ -71,7 +72,9 @@ TemporalPasses::TemporalPasses(VulkanDevice& device, const TemporalTextures& tex
     : device_(device),
       screen_(screen),
       padded_(seeds.size()),
-      tile_(textures.mask.size()),
+      tile_(textures.size()),
+      step_(textures.step),
+      masks_(static_cast<int>(textures.masks.size())),
       block_(block),
       motion_range_(textures.motion_range),
       sort_(gpu::shared_pass(device, sort_shader(block), 3, sizeof(SortPush), 64)),
@@ -79,8 +82,9 @@ TemporalPasses::TemporalPasses(VulkanDevice& device, const TemporalTextures& tex
       motion_sum_(gpu::shared_pass(device, shaders::motion_sum, 2, sizeof(MotionSumPush), 64)),
       motion_choose_(gpu::shared_pass(device, shaders::motion_choose, 2, sizeof(MotionChoosePush), 1)) {
   const auto pixels = static_cast<std::uint64_t>(screen.area());
-  mask_ = device.make_buffer(textures.mask.count() * 4);
-  upload_all(device, mask_, std::vector<std::int32_t>(textures.mask.begin(), textures.mask.end()));
+  const std::vector<std::int32_t> levels = levels_of(textures);
+  mask_ = device.make_buffer(levels.size() * 4);
+  upload_all(device, mask_, levels);
   std::vector<std::uint32_t> moves;
   for (const Grid<Offset>& tile : textures.moves) {
     // The same move on the torus of the seeds, and shorter than it: the shader wraps only once.
@@ -104,19 +108,20 @@ void TemporalPasses::record_motion_choice(const vk::raii::CommandBuffer& command
   motion_choose_->record(commands, {&sums_, &chosen_}, MotionChoosePush{motion_range_}, 1);
 }
 
-void TemporalPasses::record_retarget(const vk::raii::CommandBuffer& commands, Offset shift) {
+void TemporalPasses::record_retarget(const vk::raii::CommandBuffer& commands, int frame) {
   retarget_->record(commands, {&moves_, &chosen_, &seeds_[current_], &seeds_[1 - current_]},
-                    RetargetPush{ivec2(padded_), ivec2(tile_), ivec2(shift), motion_range_}, padded_.width,
-                    padded_.height);
+                    RetargetPush{ivec2(padded_), ivec2(tile_), ivec2(tile_shift(tile_, step_, frame)),
+                                 motion_range_, frame % masks_},
+                    padded_.width, padded_.height);
   current_ = 1 - current_;
 }
 
-void TemporalPasses::record_sort(const vk::raii::CommandBuffer& commands, Offset shift, Offset origin) const {
+void TemporalPasses::record_sort(const vk::raii::CommandBuffer& commands, int frame, Offset origin) const {
   const int columns = (screen_.width + origin.x + block_ - 1) / block_;
   const int rows = (screen_.height + origin.y + block_ - 1) / block_;
   sort_->record(commands, {&luminance_, &mask_, &seeds_[current_]},
-                SortPush{ivec2(screen_), ivec2(tile_), ivec2(shift), ivec2(origin), padded_.width, columns,
-                         columns * rows},
+                SortPush{ivec2(screen_), ivec2(tile_), ivec2(tile_shift(tile_, step_, frame)), ivec2(origin),
+                         padded_.width, columns, columns * rows, frame % masks_},
                 std::int64_t{columns} * rows);
 }
 

@@ -18,9 +18,9 @@ class TemporalPasses {
                  int block);
 
   void record_motion_choice(const vk::raii::CommandBuffer& commands) const;
-  /// With the tile for the chosen motion; (0, 0) until a choice is recorded.
-  void record_retarget(const vk::raii::CommandBuffer& commands, Offset shift);
-  void record_sort(const vk::raii::CommandBuffer& commands, Offset shift, Offset origin) const;
+  /// From `frame` to the next one, with the tile for the chosen motion; (0, 0) until a choice is recorded.
+  void record_retarget(const vk::raii::CommandBuffer& commands, int frame);
+  void record_sort(const vk::raii::CommandBuffer& commands, int frame, Offset origin) const;
 
   const gpu::DeviceBuffer& luminance() const { return luminance_; }
   const gpu::DeviceBuffer& motion() const { return motion_; }
@@ -34,6 +34,8 @@ class TemporalPasses {
  private:
   VulkanDevice& device_;
   Extent screen_, padded_, tile_;
+  Offset step_;
+  int masks_;
   int block_;
   int motion_range_;
   std::shared_ptr<const gpu::Pass> sort_, retarget_, motion_sum_, motion_choose_;

@@ -44,11 +44,9 @@ struct DeviceFrame {
   const DeviceImages& images;
   const DevicePasses& passes;
   TemporalPasses& temporal;
-  const TemporalTextures& textures;
   const RenderSettings& settings;
   int number = 0;
 
-  Offset shift_at(int frame) const { return tile_shift(textures.mask.size(), textures.step, frame); }
   int tiles_down() const { return (settings.screen.height + 7) / 8; }
 };
 
@@ -64,9 +62,7 @@ void gbuffer(DeviceFrame& frame) {
 
 void choose_motion(DeviceFrame& frame) { frame.temporal.record_motion_choice(frame.commands); }
 
-void retarget(DeviceFrame& frame) {
-  frame.temporal.record_retarget(frame.commands, frame.shift_at(frame.number - 1));
-}
+void retarget(DeviceFrame& frame) { frame.temporal.record_retarget(frame.commands, frame.number - 1); }
 
 void trace(DeviceFrame& frame) {
   const DeviceImages& images = frame.images;
@@ -80,7 +76,7 @@ void trace(DeviceFrame& frame) {
 void sort(DeviceFrame& frame) {
   const RenderSettings& settings = frame.settings;
   frame.temporal.record_sort(
-      frame.commands, frame.shift_at(frame.number),
+      frame.commands, frame.number,
       sort_blocks(settings.block, settings.jitter, settings.seed, frame.number).origin);
 }
 
@@ -118,7 +114,7 @@ class VulkanRenderer final : public Renderer {
       *buffer = device_->make_buffer(pixels * sizeof(vec4));
     }
     images_.shown = device_->make_buffer(pixels * 4);
-    const std::vector<std::int32_t> levels = levels_to_sample(textures, settings.method.sampler);
+    const std::vector<std::int32_t> levels = levels_of(textures);
     images_.levels = device_->make_buffer(levels.size() * 4);
     device_->upload(images_.levels, std::as_bytes(std::span(levels)));
   }
@@ -152,7 +148,7 @@ class VulkanRenderer final : public Renderer {
       gpu::record_barrier(commands);
     }
     timer_.start(commands);
-    DeviceFrame frame{commands, images_, passes_, temporal_, textures_, settings_, frame_};
+    DeviceFrame frame{commands, images_, passes_, temporal_, settings_, frame_};
     std::size_t at = first;
     do {
       passes[at].on_device(frame);

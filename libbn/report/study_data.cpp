@@ -94,9 +94,9 @@ std::vector<std::string> distinct(const Csv& csv, const std::string& column, con
 
 Study::Study(const fs::path& folder)
     : summary(folder / "summary.csv", {"scene", "variant", "region", "db_against_white"}),
-      errors(folder / "errors.csv",
-             {"scene", "variant", "frame", "region", "rmse", "rmse_blur_1.5", "power_to_0.1",
-              "reference_power_to_0.1", "flicker", "rmse_exponential_average"}),
+      errors(folder / "errors.csv", {"scene", "variant", "frame", "region", "rmse", "rmse_blur_1.5",
+                                     "power_to_0.1", "reference_power_to_0.1", "flicker",
+                                     "rmse_exponential_average", "rmse_exponential_average_blur_1.5"}),
       radial(folder / "radial.csv", {"scene", "variant", "frame", "region", "frequency", "power"}),
       passes(folder / "passes.csv",
              {"scene", "variant", "pass", "milliseconds", "percent_of_frame", "bytes"}) {
@@ -153,6 +153,7 @@ std::vector<MethodRow> rows_of(const Study& study, const std::string& scene) {
     row->blurred = errors.number(i, "rmse_blur_1.5");
     row->flicker = errors.number(i, "flicker");
     row->averaged = errors.number(i, "rmse_exponential_average");
+    row->averaged_blurred = errors.number(i, "rmse_exponential_average_blur_1.5");
   }
   return rows;
 }
@@ -164,14 +165,21 @@ std::string words_for(const std::string& method) {
       {"mask-still", "one blue-noise mask, the same in every frame"},
       {"mask-moved", "the mask, moved by the step from frame to frame"},
       {"mask-golden", "the mask at rest, its values turned by the golden ratio from frame to frame"},
-      {"slices", "a stack of masks, a slice a frame"},
+      {"stbn", "a spatiotemporal stack, a slice a frame: slices and each pixel's series are blue"},
+      {"filtered", "a spatiotemporal stack made for a blur and an exponential average over time"},
+      {"both", "a spatiotemporal stack made for both: blue series, and least error after blur and average"},
+      {"slices", "the stack that was given, a slice a frame"},
       {"sort",
        "in each block the seeds are sorted like the mask by the light they gave; nothing is carried on"},
       {"retarget", "sort, and a tile carries the seeds to the places the next frame's mask has for them"},
       {"reproject", "retarget with the tile for the picture's motion"}};
+  // The name without what differs from the options; else a stack's.
+  const std::string plain = method.substr(0, std::min(method.find("-block-"), method.find("-by-light")));
   std::string words = method;
   for (const auto& [name, what] : kWords) {
-    if (method == name || method.starts_with(fmt::format("{}-b", name))) words = what;
+    if (plain == name) words = what;
+    if (plain == fmt::format("retarget-{}", name))
+      words = fmt::format("retarget from slice to slice of the stack {}, each with a tile of its own", name);
   }
   if (const auto at = method.find("-block-"); at != std::string::npos)
     words += fmt::format("; blocks of {0} × {0} pixels", method.substr(at + 7));

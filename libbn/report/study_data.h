@@ -52,7 +52,8 @@ struct Study {
 struct MethodRow {
   std::string name;
   std::vector<double> db;  ///< by region: low-frequency error against white noise; NaN where there is none
-  double rmse = 0.0, blurred = 0.0, flicker = 0.0, averaged = 0.0;  ///< whole picture, last frame; NaN: none
+  double rmse = 0.0, blurred = 0.0, flicker = 0.0;  ///< whole picture, last frame; NaN: none
+  double averaged = 0.0, averaged_blurred = 0.0;
 };
 std::vector<MethodRow> rows_of(const Study& study, const std::string& scene);
 

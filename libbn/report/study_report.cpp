@@ -26,13 +26,20 @@ using report::Study;
 
 /// The methods that plots show, a colour each; white noise is the line at 0 dB.
 std::vector<std::string> plotted_variants(const Study& study, const std::string& scene) {
+  // One of each sort first: there are more methods than colours.
+  constexpr std::string_view kOrder[] = {
+      "retarget",      "mask-moved",       "both",        "slices",     "sort", "reproject",
+      "retarget-both", "retarget-slices",  "mask-golden", "mask-still", "stbn", "filtered",
+      "retarget-stbn", "retarget-filtered"};
   std::vector<std::string> variants = distinct(study.errors, "variant", scene);
-  std::erase_if(variants, [](const std::string& name) {
-    return name == "white" || name.find("-block-") != std::string::npos ||
-           name.find("-by-light") != std::string::npos;
+  std::vector<std::string_view> chosen;
+  for (const std::string_view name : kOrder) {
+    const bool there = std::find(variants.begin(), variants.end(), name) != variants.end();
+    if (there && std::ssize(chosen) < report::kCurveColours) chosen.push_back(name);
+  }
+  std::erase_if(variants, [&](const std::string& name) {
+    return std::find(chosen.begin(), chosen.end(), name) == chosen.end();
   });
-  const auto colours = static_cast<std::size_t>(report::kCurveColours);
-  if (variants.size() > colours) variants.erase(variants.begin(), variants.end() - report::kCurveColours);
   return variants;
 }
 
@@ -172,7 +179,8 @@ void write_study_report(const fs::path& study_folder, const fs::path& out, const
       "own "
       "error taken off; about 1 dB is scatter. The other figures are of the whole picture at the last frame: "
       "error (RMSE), after a blur of 1.5 pixels, change of the blurred error from frame to frame along the "
-      "motion (flicker), error of the exponential average over time. Less is better everywhere.",
+      "motion (flicker), error of the exponential average over time (0.1 of each new frame), and of that "
+      "average after the blur. Less is better everywhere.",
       study.width, study.height, study.bounces, study.frames + 1, study.block, study.block,
       report::escaped(study.device), study.first_counted, study.frames);
   page.preface = overall(wins, page.sections.size());

@@ -136,8 +136,9 @@ std::string sheets_html(const Study& study, const std::string& scene, const std:
     std::string columns;
     for (std::size_t i = 0; i < methods.size(); ++i)
       columns += column_of(last, static_cast<int>(i), 0, 2, methods[i], "last frame");
-    // Eight fit into a row of the page; more stand in two rows of like length.
-    html += section(fmt::format("Frame {}", study.frames), columns, methods.size() > 8 ? " two-rows" : "");
+    // Eight fit into a row of the page; more stand five in a row.
+    html +=
+        section(fmt::format("Frame {}", study.frames), columns, methods.size() > 8 ? " five-in-a-row" : "");
   }
   if (sides.size() > 1) {
     const Cut cut(folder / scene / "blocks.png", static_cast<int>(sides.size()), 3, notes);

@@ -57,10 +57,12 @@ std::vector<Column> columns_of(const std::vector<MethodRow>& rows, const std::ve
     for (const MethodRow& row : rows) column.add(row.db[r], decibels(row.db[r]));
     columns.push_back(std::move(column));
   }
-  const std::pair<const char*, double MethodRow::*> kRest[] = {{"RMSE", &MethodRow::rmse},
-                                                               {"RMSE, blurred", &MethodRow::blurred},
-                                                               {"flicker", &MethodRow::flicker},
-                                                               {"RMSE, averaged", &MethodRow::averaged}};
+  const std::pair<const char*, double MethodRow::*> kRest[] = {
+      {"RMSE", &MethodRow::rmse},
+      {"RMSE, blurred", &MethodRow::blurred},
+      {"flicker", &MethodRow::flicker},
+      {"RMSE, averaged", &MethodRow::averaged},
+      {"RMSE, averaged and blurred", &MethodRow::averaged_blurred}};
   for (const auto& [heading, member] : kRest) {
     Column column{.heading = heading};
     for (const MethodRow& row : rows) column.add(row.*member, number(row.*member));

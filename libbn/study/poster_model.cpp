@@ -66,12 +66,11 @@ class Poster {
 PosterRun run_poster_model(const PosterModel& model, const TemporalTextures& textures) {
   textures.check();
   const Poster poster(model);
-  Seeds seeds = initial_seeds(padded_extent(model.screen, textures.mask.size()),
+  Seeds seeds = initial_seeds(padded_extent(model.screen, textures.size()),
                               static_cast<std::uint32_t>(random_bits(model.seed, kSeedStream, 0)));
   // The picture moves against the camera. Rounded half up like the mean motion of the screen.
   const int motion = std::clamp(static_cast<int>(std::floor(-model.pan_px + 0.5)), -textures.motion_range,
                                 textures.motion_range);
-  const Grid<Offset>& move = textures.move({model.reproject ? motion : 0, 0});
   PosterRun run;
   std::int64_t crossing = 0, moved = 0;
   for (int frame = 0; frame <= model.frames; ++frame) {
@@ -105,8 +104,9 @@ PosterRun run_poster_model(const PosterModel& model, const TemporalTextures& tex
     }
     const double white = mean_square / weights * 4.0 / 45.0;
     run.power_db.push_back(10.0 * std::log10(low_frequency_error(error, kBand) / white));
-    const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
-    sort_seeds(seeds, key, textures.mask, shift, sort_blocks(model.block, false, model.seed, frame));
+    const Offset shift = textures.shift(frame);
+    const Grid<Offset>& move = textures.move({model.reproject ? motion : 0, 0}, frame);
+    sort_seeds(seeds, key, textures.mask(frame), shift, sort_blocks(model.block, false, model.seed, frame));
     for (int y = top; y < top + error.height(); ++y) {
       for (int x = left; x < left + error.width(); ++x) {
         const Offset by = move.torus(x + shift.x, y + shift.y);

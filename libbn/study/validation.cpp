@@ -45,7 +45,7 @@ void run_study(const StudyOptions& options, const TemporalTextures& textures,
                const Execution& execution) {
   check_options(options);
   textures.check();
-  const std::vector<Variant> variants = variants_of(options, textures);
+  const std::vector<Variant> variants = variants_of(options);
   std::vector<Stage> stages;
   for (const std::string& name : options.scenes) {
     Scene scene = load_scene(name);
@@ -53,15 +53,16 @@ void run_study(const StudyOptions& options, const TemporalTextures& textures,
     stages.push_back({options, textures, device, std::move(scene), own_folder, execution});
     for (const Variant& variant : variants) {
       const RenderSettings settings{.screen = options.screen,
-                                    .method = variant.method,
+                                    .method = variant.method.method,
                                     .bounces = options.bounces,
                                     .block = variant.block};
-      check_rendering(stages.back().scene, textures, settings);
+      const Stage& stage = stages.back();
+      check_rendering(stage.scene, stage.textures_of(variant.method), settings);
     }
   }
   // Memory is all that only a renderer can refuse.
   const std::string name =
-      stages.front().renderer({.screen = options.screen, .method = Method::white})->device();
+      stages.front().renderer(textures, {.screen = options.screen, .method = Method::white})->device();
 
   int work = 0;
   std::vector<References> references;

@@ -16,28 +16,30 @@ namespace bn::study {
 inline constexpr double kLowFrequency =
     0.1;  // cycles per pixel; above it the eye sees little at arm's length
 inline constexpr double kBlurs_px[] = {0.0, 1.0, 1.5, 2.0};
+inline constexpr std::size_t kNoBlur = 0, kShownBlur = 2;  // of these, where one is enough
 
 // --- what is rendered ------------------------------------------------------------------------------
 
 /// One sequence of frames: a method with its settings.
 struct Variant {
   std::string name;  ///< the method's, with what differs from the options: "retarget-block-4"
-  Method method = Method::white;
+  StudyMethod method = {Method::white};
   int block = 8;
   bool sort_by_light = false;
 };
-std::vector<Variant> variants_of(const StudyOptions& options, const TemporalTextures& textures);
+std::vector<Variant> variants_of(const StudyOptions& options);
 
 /// A scene with everything that renders it.
 struct Stage {
   const StudyOptions& options;
-  const TemporalTextures& textures;
+  const TemporalTextures& textures;      ///< of the methods without a stack
   std::shared_ptr<VulkanDevice> device;  ///< null: the processor
   Scene scene;
   std::filesystem::path folder;  ///< of the scene's pictures
   Execution execution;
 
-  std::unique_ptr<Renderer> renderer(const RenderSettings& settings) const;
+  const TemporalTextures& textures_of(const StudyMethod& method) const;
+  std::unique_ptr<Renderer> renderer(const TemporalTextures& with, const RenderSettings& settings) const;
 };
 
 // --- where it is measured --------------------------------------------------------------------------
@@ -101,14 +103,16 @@ class References {
 
 /// Of one sequence, at one frame, in one region.
 struct Measure {
+  /// RMS errors, of which the converged picture's own part is taken off.
   double rms[std::size(kBlurs_px)] = {};
   double low_frequency = 0.0;            ///< power at 0 < f <= kLowFrequency
   double bands[kBandEdges.size()] = {};  ///< power up to each edge from the one before
   double reference_low_frequency = 0.0;  ///< of the converged picture's own error
   /// RMS change of the error, blurred (1.5 pixels), since the last frame, along the motion; < 0: unknown.
   double flicker = -1.0;
-  double running = -1.0;      ///< RMS error of the average since the camera last moved; < 0: it moves
-  double exponential = -1.0;  ///< and of the exponential one (0.1)
+  double running = -1.0;              ///< RMS error of the average since the camera last moved; < 0: it moves
+  double exponential = -1.0;          ///< and of the exponential one (0.1)
+  double exponential_blurred = -1.0;  ///< which is then blurred (1.5 pixels)
   RadialCurve radial;
 };
 

@@ -133,7 +133,7 @@ void write_pictures(const SceneResult& result, const std::filesystem::path& fold
   for (const Sequence& sequence : result.sequences) {
     const bool other_block = sequence.variant.name.find("-block-") != std::string::npos;
     if (!other_block) methods.push_back(&sequence);
-    if (sequence.variant.method == Method::retarget && !sequence.variant.sort_by_light)
+    if (sequence.variant.method.name() == "retarget" && !sequence.variant.sort_by_light)
       blocks.push_back(&sequence);
   }
   std::sort(blocks.begin(), blocks.end(),

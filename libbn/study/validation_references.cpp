@@ -59,7 +59,7 @@ std::filesystem::path References::file_of(int view) const {
   // All that decides a reference: what the shaders are told, in the first frame of the run that makes it.
   const RenderSettings settings = settings_of(stage_, frame_of_view_[static_cast<std::size_t>(view)]);
   const PackedScene packed = pack_scene(stage_.scene);
-  const Extent padded = padded_extent(settings.screen, stage_.textures.mask.size());
+  const Extent padded = padded_extent(settings.screen, stage_.textures.size());
   FrameConstants constants = frame_constants(stage_.scene, packed, stage_.textures, settings, padded, 0);
   constants.tile_width = constants.tile_height = constants.level_shift =
       0;  // of a mask that white noise ignores
@@ -108,7 +108,7 @@ void References::render(ProgressMeter& progress) {
   for (int view = 0; view < views(); ++view) {
     if (read(view)) continue;
     const RenderSettings settings = settings_of(stage_, frame_of_view_[static_cast<std::size_t>(view)]);
-    const auto renderer = stage_.renderer(settings);
+    const auto renderer = stage_.renderer(stage_.textures, settings);
     const auto pixels = static_cast<std::size_t>(settings.screen.area());
     std::vector<double> halves[2] = {std::vector<double>(pixels), std::vector<double>(pixels)};
     int counts[2] = {0, 0};

@@ -14,7 +14,6 @@ using namespace render;
 namespace {
 
 constexpr float kAverage = 0.1f;  // of the exponential average over time
-constexpr double kFlickerBlur_px = 1.5;
 constexpr int kFirstFrames = 7;
 constexpr int kCropSide = 64;
 
@@ -29,14 +28,31 @@ PixelRect crop_at(const SceneResult& result, Extent screen, int frame) {
           std::clamp(rect.top + (rect.height - side) / 2, 0, screen.height - side), side, side};
 }
 
-Measure measure(const Grid<float>& error, const Grid<float>& reference_error) {
+/// Of a converged picture's own error in one region.
+struct OwnError {
+  explicit OwnError(const Grid<float>& error) : low_frequency(ErrorSpectrum(error).band(0.0, kLowFrequency)) {
+    for (std::size_t i = 0; i < std::size(kBlurs_px); ++i) rms[i] = blurred_rms(error, kBlurs_px[i]);
+  }
+  /// The RMS of `error` after a blur without this error's part, which is independent of the rest.
+  double taken_off(const Grid<float>& error, std::size_t blur) const {
+    const double all = blurred_rms(error, kBlurs_px[blur]), own = rms[blur];
+    return std::sqrt(std::max(all * all - own * own, 0.0));
+  }
+
+  double rms[std::size(kBlurs_px)] = {};
+  double low_frequency;
+};
+/// By frame and region: all sequences are measured against the same pictures.
+using OwnErrors = std::map<std::pair<int, std::size_t>, OwnError>;
+
+Measure measure(const Grid<float>& error, const OwnError& own) {
   Measure m;
-  for (std::size_t i = 0; i < std::size(kBlurs_px); ++i) m.rms[i] = blurred_rms(error, kBlurs_px[i]);
+  for (std::size_t i = 0; i < std::size(kBlurs_px); ++i) m.rms[i] = own.taken_off(error, i);
   const ErrorSpectrum spectrum(error);
   m.low_frequency = spectrum.band(0.0, kLowFrequency);
   for (std::size_t i = 0; i < kBandEdges.size(); ++i)
     m.bands[i] = spectrum.band(i == 0 ? 0.0 : kBandEdges[i - 1], kBandEdges[i]);
-  m.reference_low_frequency = ErrorSpectrum(reference_error).band(0.0, kLowFrequency);
+  m.reference_low_frequency = own.low_frequency;
   m.radial = spectrum.radial();
   return m;
 }
@@ -67,18 +83,19 @@ class PassTimes {
 };
 
 Sequence run_sequence(const Stage& stage, const Variant& variant, const SceneResult& result,
-                      References& references, ProgressMeter& progress) {
+                      References& references, OwnErrors& own_errors, ProgressMeter& progress) {
   const StudyOptions& options = stage.options;
   const Extent screen = options.screen;
   Sequence sequence;
   sequence.variant = variant;
-  const auto renderer = stage.renderer({.screen = screen,
-                                        .method = variant.method,
-                                        .bounces = options.bounces,
-                                        .block = variant.block,
-                                        .jitter = options.jitter,
-                                        .sort_by_light = variant.sort_by_light,
-                                        .seed = options.seed});
+  const auto renderer =
+      stage.renderer(stage.textures_of(variant.method), {.screen = screen,
+                                                         .method = variant.method.method,
+                                                         .bounces = options.bounces,
+                                                         .block = variant.block,
+                                                         .jitter = options.jitter,
+                                                         .sort_by_light = variant.sort_by_light,
+                                                         .seed = options.seed});
   PassTimes times;
   Grid<float> last_error, running(screen), exponential(screen);
   int still_frames = 0;  // since the camera last moved
@@ -102,11 +119,17 @@ Sequence run_sequence(const Stage& stage, const Variant& variant, const SceneRes
     for (std::size_t r = 0; r < result.regions.size(); ++r) {
       const auto rect = region_at(stage.scene, result.regions[r], screen, frame);
       if (!rect) continue;
-      Measure m = measure(crop(error, *rect), crop(reference.own_error, *rect));
-      if (known > 0.5) m.flicker = blurred_rms(crop(change, *rect), kFlickerBlur_px);
+      const OwnError& own =
+          own_errors.try_emplace({frame, r}, crop(reference.own_error, *rect)).first->second;
+      Measure m = measure(crop(error, *rect), own);
+      if (known > 0.5) m.flicker = blurred_rms(crop(change, *rect), kBlurs_px[kShownBlur]);
       if (!moved) {
-        m.running = blurred_rms(crop(difference(running, reference.luminance), *rect), 0.0);
-        m.exponential = blurred_rms(crop(difference(exponential, reference.luminance), *rect), 0.0);
+        const auto average_error = [&](const Grid<float>& average) {
+          return crop(difference(average, reference.luminance), *rect);
+        };
+        m.running = own.taken_off(average_error(running), kNoBlur);
+        m.exponential = own.taken_off(average_error(exponential), kNoBlur);
+        m.exponential_blurred = own.taken_off(average_error(exponential), kShownBlur);
       }
       sequence.measures[{frame, r}] = std::move(m);
     }
@@ -125,30 +148,6 @@ Sequence run_sequence(const Stage& stage, const Variant& variant, const SceneRes
 }
 
 }  // namespace
-
-std::vector<Variant> variants_of(const StudyOptions& options, const TemporalTextures& textures) {
-  std::vector<Variant> variants;
-  for (const Method method : options.methods) {
-    if (method == Method::slices && textures.slices.empty()) continue;
-    variants.push_back({std::string(name_of(method)), method, options.block, options.sort_by_light});
-  }
-  if (!options.variations) return variants;
-  for (const int block : {2, 4, 8, 16}) {
-    if (block == options.block) continue;
-    variants.push_back(
-        {fmt::format("retarget-block-{}", block), Method::retarget, block, options.sort_by_light});
-  }
-  if (!options.sort_by_light) {
-    variants.push_back({"retarget-by-light", Method::retarget, options.block, true});
-    variants.push_back({"reproject-by-light", Method::reproject, options.block, true});
-  }
-  return variants;
-}
-
-std::unique_ptr<Renderer> Stage::renderer(const RenderSettings& settings) const {
-  if (device) return make_vulkan_renderer(device, scene, textures, settings);
-  return make_plain_renderer(scene, textures, settings, execution);
-}
 
 std::optional<PixelRect> region_at(const Scene& scene, const Region& region, Extent screen, int frame) {
   // The picture moves against the camera.
@@ -228,8 +227,9 @@ SceneResult study_scene(const Stage& stage, const std::vector<Variant>& variants
   result.regions.push_back({.name = "picture"});
   for (const Region& region : stage.scene.regions) result.regions.push_back(region);
   references.render(progress);
+  OwnErrors own_errors;
   for (const Variant& variant : variants)
-    result.sequences.push_back(run_sequence(stage, variant, result, references, progress));
+    result.sequences.push_back(run_sequence(stage, variant, result, references, own_errors, progress));
   result.reference_rms = blurred_rms(references.at(result.frames).own_error, 0.0);
   return result;
 }

@@ -25,10 +25,10 @@ struct Input {
 const Input& input() {
   static const Input made = [] {
     Input input;
-    input.textures = {.mask = Grid<std::int32_t>({64, 64}), .step = {49, 37}};
+    input.textures = {.masks = {Grid<std::int32_t>({64, 64})}, .step = {49, 37}};
     Grid<Offset> move({64, 64});
     for (std::size_t i = 0; i < move.count(); ++i) {
-      input.textures.mask[i] = static_cast<std::int32_t>(random_bits(5, 1, i) & 255);
+      input.textures.masks[0][i] = static_cast<std::int32_t>(random_bits(5, 1, i) & 255);
       move[i] = {static_cast<int>(i % 2 == 0) * 2 - 1, 0};  // neighbours change places
     }
     input.textures.moves = {move};
@@ -44,7 +44,7 @@ const Input& input() {
 void plain_sort(benchmark::State& state) {
   Seeds seeds = input().seeds;
   for (auto _ : state) {
-    sort_seeds(seeds, input().luminance, input().textures.mask, {0, 0},
+    sort_seeds(seeds, input().luminance, input().textures.mask(0), {0, 0},
                sort_blocks(static_cast<int>(state.range(0)), false, 0, 0), {.threads = 1});
   }
 }
@@ -71,9 +71,9 @@ void device_pass(benchmark::State& state) {
   const auto frame = [&] {
     device.run([&](const vk::raii::CommandBuffer& commands) {
       timer.start(commands);
-      if (pass == kSort) temporal.record_sort(commands, {13, 31}, {0, 0});
+      if (pass == kSort) temporal.record_sort(commands, 5, {0, 0});
       if (pass == kMotion) temporal.record_motion_choice(commands);
-      if (pass == kRetarget) temporal.record_retarget(commands, {13, 31});
+      if (pass == kRetarget) temporal.record_retarget(commands, 5);
       timer.mark(commands, "pass");
     });
     return timer.read().front().milliseconds;

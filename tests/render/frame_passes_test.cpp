@@ -39,7 +39,7 @@ std::string names_of(const Method& method, int frame) {
 
 TEST(FramePasses, AreThoseOfTheMethod) {
   EXPECT_EQ(names_of(Method::white, 1), "gbuffer, trace, tone map");
-  EXPECT_EQ(names_of(Method::slices, 1), "gbuffer, trace, tone map");
+  EXPECT_EQ(names_of(Method::mask_moved, 1), "gbuffer, trace, tone map");
   EXPECT_EQ(names_of(Method::sort, 1), "gbuffer, trace, sort, tone map");
   EXPECT_EQ(names_of(Method::retarget, 0), "gbuffer, trace, sort, tone map");
   EXPECT_EQ(names_of(Method::retarget, 1), "gbuffer, retarget, trace, sort, tone map");

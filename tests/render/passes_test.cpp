@@ -36,7 +36,7 @@ Grid<Offset> some_moves(Extent size, Offset motion, std::uint64_t seed) {
 }
 
 TemporalTextures some_textures(Extent size, int range) {
-  TemporalTextures textures{.mask = random_mask(size, 5), .step = {7, 3}, .motion_range = range};
+  TemporalTextures textures{.masks = {random_mask(size, 5)}, .step = {7, 3}, .motion_range = range};
   for (int y = -range; y <= range; ++y) {
     for (int x = -range; x <= range; ++x) {
       textures.moves.push_back(some_moves(size, {x, y}, static_cast<std::uint64_t>(y * 31 + x + 1000)));
@@ -55,7 +55,7 @@ TEST(Seeds, MultisetSurvivesAHundredFramesOnAnyScreen) {
   const TemporalTextures textures = some_textures({32, 16}, 1);
   ASSERT_NO_THROW(textures.check());
   for (const Extent screen : {Extent{1920, 1080}, {640, 360}, {257, 131}, {64, 64}, {1, 1}}) {
-    Seeds seeds = initial_seeds(padded_extent(screen, textures.mask.size()), 77);
+    Seeds seeds = initial_seeds(padded_extent(screen, textures.size()), 77);
     const auto before = sorted(seeds);
     const std::uint64_t digest = multiset_digest(seeds);
     EXPECT_EQ(std::adjacent_find(before.begin(), before.end()), before.end()) << "seeds are all different";
@@ -66,14 +66,14 @@ TEST(Seeds, MultisetSurvivesAHundredFramesOnAnyScreen) {
         for (int x = 0; x < screen.width; ++x)
           luminance(x, y) = static_cast<float>(seeds(x, y) * (2u * static_cast<std::uint32_t>(frame) + 1u));
       }
-      const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
+      const Offset shift = tile_shift(textures.size(), textures.step, frame);
       // Every size of block, still and jittered; retarget off in some frames, else every motion there is.
       // Small blocks are cheap, so the largest screen has mostly those.
       const bool large = screen.area() > 1'000'000 && frame % 20 < 16;
       const int block = large ? 2 << frame % 2 : 2 << frame % 4;
-      sort_seeds(seeds, luminance, textures.mask, shift, sort_blocks(block, frame % 3 == 0, 9, frame));
+      sort_seeds(seeds, luminance, textures.mask(0), shift, sort_blocks(block, frame % 3 == 0, 9, frame));
       if (frame % 10 == 9) continue;
-      seeds = retarget_seeds(seeds, textures.move({frame % 3 - 1, frame / 3 % 3 - 1}), shift);
+      seeds = retarget_seeds(seeds, textures.move({frame % 3 - 1, frame / 3 % 3 - 1}, frame), shift);
     }
     EXPECT_EQ(multiset_digest(seeds), digest);
     EXPECT_EQ(sorted(seeds), before) << screen.width << "x" << screen.height;

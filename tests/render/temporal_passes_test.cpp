@@ -27,31 +27,33 @@ VulkanDevice& device() {
 
 std::string first_complaint() { return device().complaints().empty() ? "" : device().complaints().front(); }
 
-TemporalTextures some_textures(Extent size, int range) {
-  TemporalTextures textures{.mask = Grid<std::int32_t>(size), .step = {5, 3}, .motion_range = range};
-  for (std::size_t i = 0; i < textures.mask.count(); ++i) {
-    textures.mask[i] = static_cast<std::int32_t>(random_bits(5, 1, i) & 255);
-  }
-  for (int y = -range; y <= range; ++y) {
-    for (int x = -range; x <= range; ++x) {
-      Grid<Offset> move(size, {x, y});
-      for (std::size_t i = 0; i + 1 < move.count(); i += 2) {
-        if ((random_bits(6, static_cast<std::uint32_t>(y * 9 + x + 100), i) & 1) == 0) continue;
-        move[i].x += 1;  // an even side: i and i + 1 share a row
-        move[i + 1].x -= 1;
+TemporalTextures some_textures(Extent size, int range, int masks) {
+  TemporalTextures textures{.masks = {}, .step = {5, 3}, .motion_range = range};
+  for (std::uint64_t mask = 0; mask < static_cast<std::uint64_t>(masks); ++mask) {
+    Grid<std::int32_t>& levels = textures.masks.emplace_back(size);
+    for (std::size_t i = 0; i < levels.count(); ++i)
+      levels[i] = static_cast<std::int32_t>(random_bits(5 + mask, 1, i) & 255);
+    for (int y = -range; y <= range; ++y) {
+      for (int x = -range; x <= range; ++x) {
+        Grid<Offset> move(size, {x, y});
+        for (std::size_t i = 0; i + 1 < move.count(); i += 2) {
+          if ((random_bits(6 + mask, static_cast<std::uint32_t>(y * 9 + x + 100), i) & 1) == 0) continue;
+          move[i].x += 1;  // an even side: i and i + 1 share a row
+          move[i + 1].x -= 1;
+        }
+        textures.moves.push_back(std::move(move));
       }
-      textures.moves.push_back(std::move(move));
     }
   }
   textures.check();
   return textures;
 }
 
-void expect_equal_runs(Extent screen, int block, bool jitter, int frames) {
+void expect_equal_runs(Extent screen, int block, bool jitter, int frames, int masks = 1) {
   SCOPED_TRACE(std::to_string(screen.width) + "x" + std::to_string(screen.height) + ", block " +
                std::to_string(block));
-  const TemporalTextures textures = some_textures({16, 8}, 2);
-  Seeds seeds = initial_seeds(padded_extent(screen, textures.mask.size()), 3);
+  const TemporalTextures textures = some_textures({16, 8}, 2, masks);
+  Seeds seeds = initial_seeds(padded_extent(screen, textures.size()), 3);
   const std::uint64_t digest = multiset_digest(seeds);
   TemporalPasses temporal(device(), textures, screen, seeds, block);
   Grid<float> luminance(screen);
@@ -67,18 +69,18 @@ void expect_equal_runs(Extent screen, int block, bool jitter, int frames) {
                                       static_cast<std::int16_t>(300 - frame * 128)}
                         : PixelMotion{kNoMotion, kNoMotion};
     }
-    const Offset shift = tile_shift(textures.mask.size(), textures.step, frame);
+    const Offset shift = textures.shift(frame);
     const SortBlocks blocks = sort_blocks(block, jitter, 4, frame);
     const Offset moved = choose_motion(motion, textures.motion_range);
-    sort_seeds(seeds, luminance, textures.mask, shift, blocks);
-    seeds = retarget_seeds(seeds, textures.move(moved), shift);
+    sort_seeds(seeds, luminance, textures.mask(frame), shift, blocks);
+    seeds = retarget_seeds(seeds, textures.move(moved, frame), shift);
 
     device().upload(temporal.luminance(), std::as_bytes(std::span(luminance.data(), luminance.count())));
     device().upload(temporal.motion(), std::as_bytes(std::span(motion.data(), motion.count())));
     device().run([&](const vk::raii::CommandBuffer& commands) {
-      temporal.record_sort(commands, shift, blocks.origin);
+      temporal.record_sort(commands, frame, blocks.origin);
       temporal.record_motion_choice(commands);
-      temporal.record_retarget(commands, shift);
+      temporal.record_retarget(commands, frame);
     });
     ASSERT_EQ(temporal.download_chosen_motion(), moved) << "frame " << frame;
     ASSERT_EQ(temporal.download_seeds(), seeds) << "frame " << frame;
@@ -89,6 +91,11 @@ void expect_equal_runs(Extent screen, int block, bool jitter, int frames) {
 
 TEST(TemporalPasses, EqualThePlainFunctions) {
   for (const int block : {2, 4, 8, 16}) expect_equal_runs({131, 77}, block, true, 6);
+}
+
+TEST(TemporalPasses, EqualOnStacks) {
+  // Three masks, six frames: the stack comes around.
+  for (const int block : {2, 8}) expect_equal_runs({131, 77}, block, true, 6, 3);
 }
 
 TEST(TemporalPasses, EqualOnOddScreens) {

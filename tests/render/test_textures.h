@@ -26,7 +26,7 @@ inline const Grid<std::int32_t>& mask_64() {
 /// Mask and proven plain tile.
 inline const TemporalTextures& proven_textures() {
   static const TemporalTextures textures{
-      .mask = mask_64(), .step = kStep, .moves = {solve_retarget(mask_64(), {.step = kStep}).move}};
+      .masks = {mask_64()}, .step = kStep, .moves = {solve_retarget(mask_64(), {.step = kStep}).move}};
   return textures;
 }
 

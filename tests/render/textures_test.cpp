@@ -54,7 +54,7 @@ class BakedFolder : public testing::Test {
 
 TEST_F(BakedFolder, ReadsBackWhatWasBaked) {
   const TemporalTextures read = read_temporal_textures(folder_);
-  EXPECT_EQ(read.mask, test::proven_textures().mask);
+  EXPECT_EQ(read.masks, test::proven_textures().masks);
   EXPECT_EQ(read.moves, test::proven_textures().moves);
   EXPECT_EQ(read.step, test::kStep);
 }
@@ -71,8 +71,8 @@ TEST_F(BakedFolder, AWrongStepCostsWhatTheStudySays) {
   // The mean of eight runs, as in docs/validation.md: a single one scatters by half a decibel.
   double right_db = 0.0, wrong_db = 0.0;
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-    right_db += run_flat_model({.seed = seed}, test::proven_textures()).back() / 8.0;
-    wrong_db += run_flat_model({.seed = seed}, wrong).back() / 8.0;
+    right_db += run_flat_model({.seed = seed}, test::proven_textures()).power_db.back() / 8.0;
+    wrong_db += run_flat_model({.seed = seed}, wrong).power_db.back() / 8.0;
   }
   EXPECT_GT(wrong_db, right_db + 5.0) << wrong_db << " dB against " << right_db << " dB";
 }
@@ -95,18 +95,18 @@ TEST(Slices, AreReadInNameOrderAndOneSize) {
     image.samples.resize(static_cast<std::size_t>(size.area()), static_cast<std::byte>(level));
     write_image(folder / name, image, {});
   };
-  EXPECT_THROW(read_slices(folder), Error) << "none";
-  EXPECT_THROW(read_slices(folder / "nowhere"), Error);
+  EXPECT_THROW(read_stack_textures(folder), Error) << "none";
+  EXPECT_THROW(read_stack_textures(folder / "nowhere"), Error);
   write("slice_10.png", {4, 4}, 3);
   write("slice_9.png", {4, 4}, 2);
   write("slice_009b.png", {4, 4}, 1);
-  const auto slices = read_slices(folder);
+  const auto slices = read_stack_textures(folder).masks;
   ASSERT_EQ(slices.size(), 3u);
   EXPECT_EQ(slices[0][0], 2);
   EXPECT_EQ(slices[1][0], 1);
   EXPECT_EQ(slices[2][0], 3);
   write("slice_11.png", {4, 8}, 3);
-  EXPECT_THROW(read_slices(folder), Error) << "another size";
+  EXPECT_THROW(read_stack_textures(folder), Error) << "another size";
 }
 
 }  // namespace

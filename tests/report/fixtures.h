@@ -108,11 +108,13 @@ inline void write_study(const std::filesystem::path& folder) {
         "room,retarget,picture,-9.00\nroom,reproject,picture,-9.00\n");
   write("errors.csv",
         "scene,variant,frame,region,rmse,rmse_blur_1.5,power_to_0.1,reference_power_to_0.1,flicker,"
-        "rmse_exponential_average\n"
-        "room,white,0,picture,0.5,0.125,0.25,0.001,,0.4\nroom,white,1,picture,0.5,0.125,0.25,0.001,0.06,0.4\n"
-        "room,sort,0,picture,0.5,0.1,0.25,0.001,,0.4\nroom,sort,1,picture,0.5,0.1,0.1,0.001,0.05,0.3\n"
-        "room,retarget,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3\n"
-        "room,reproject,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3\n");
+        "rmse_exponential_average,rmse_exponential_average_blur_1.5\n"
+        "room,white,0,picture,0.5,0.125,0.25,0.001,,0.4,0.02\nroom,white,1,picture,0.5,0.125,0.25,0.001,0.06,"
+        "0.4,0.02\n"
+        "room,sort,0,picture,0.5,0.1,0.25,0.001,,0.4,0.02\nroom,sort,1,picture,0.5,0.1,0.1,0.001,0.05,0.3,0."
+        "015\n"
+        "room,retarget,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3,0.015\n"
+        "room,reproject,1,picture,0.5,0.0625,0.1,0.001,0.05,0.3,0.015\n");
   write("radial.csv",
         "scene,variant,frame,region,frequency,power\nroom,sort,1,picture,0.1,0.1\nroom,sort,1,picture,0.2,"
         "0.3\n");

@@ -21,7 +21,7 @@ using test::fresh_folder;
 StudyOptions small_study(const std::string& scene) {
   StudyOptions options;
   options.scenes = {scene};
-  options.methods = {Method::white, Method::retarget};
+  options.methods = {{Method::white}, {Method::retarget}};
   options.variations = false;
   options.screen = {48, 32};
   options.frames = 3;

@@ -154,6 +154,51 @@ TEST_F(ValidateTextures, SlicesAreAMethod) {
   EXPECT_NE(read_bytes(scratch_ / "out" / "summary.csv").find("wall,slices,picture"), std::string::npos);
   std::filesystem::remove_all(scratch_ / "out");
   expect_failure(2, {"wall", "--device", "cpu", "--slices", "nowhere"}, {"nowhere"});
+  expect_failure(1, {"wall", "--device", "cpu", "--method", "retarget-slices"},
+                 {"retarget-slices", "--slices"});
+}
+
+TEST_F(ValidateTextures, TheTilesOfAStackAreThoseOfThatStack) {
+  make({"noise", "spatiotemporal", "--size", "16x16x3", "-o", "stack/slice_%d.png"});
+  make({"retarget", "stack/slice_%d.png", "--radius", "3", "-o", "stack/tile_%d.png"});
+  make({"noise", "spatiotemporal", "--size", "16x16x3", "--seed", "2", "-o", "other/slice_%d.png"});
+  make({"noise", "spatiotemporal", "--size", "16x16x2", "-o", "short/slice_%d.png"});
+  const auto with = [](const std::string& slices) {
+    return std::vector<std::string>{
+        "wall",           "--device", "cpu",      "--size", "16x16",         "--frames",          "1",
+        "--reference",    "64",       "--slices", slices,   "--slice-tiles", "stack/tile_%d.png", "--method",
+        "retarget-slices"};
+  };
+  expect_failure(3, with("other/slice_%d.png"), {"tile_%d.png", "another mask", "other/slice_%d.png"});
+  expect_failure(3, with("short/slice_%d.png"), {"tile_%d.png", "another mask"});
+  expect_failure(1, {"wall", "--device", "cpu", "--slice-tiles", "stack/tile_%d.png"},
+                 {"--slice-tiles", "--slices"});
+  auto arguments = with("stack/slice_%d.png");
+  arguments.insert(arguments.begin(), "validate");
+  arguments.insert(arguments.end(), {"-o", "out"});
+  const auto result = run_bn(arguments, {.folder = scratch_.path()});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_NE(read_bytes(scratch_ / "out" / "summary.csv").find("wall,retarget-slices,picture"),
+            std::string::npos);
+}
+
+TEST_F(ValidateTextures, PresetsAreMethodsInTablesAndPage) {
+  const auto result = run_bn({"validate", "wall", "--device", "cpu", "--size", "32x32", "--frames", "1",
+                              "--reference", "256", "--textures", "tex", "-o", "out"},
+                             {.folder = scratch_.path()});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string page = read_bytes(scratch_ / "out" / "report.html");
+  EXPECT_NE(page.find("RMSE, averaged and blurred"), std::string::npos);
+  for (const std::string name :
+       {"stbn", "filtered", "both", "retarget-stbn", "retarget-filtered", "retarget-both"}) {
+    for (const char* table : {"summary.csv", "errors.csv"}) {
+      EXPECT_NE(read_bytes(scratch_ / "out" / table).find("wall," + name + ","), std::string::npos)
+          << name << " in " << table;
+    }
+    EXPECT_NE(read_bytes(scratch_ / "out" / "report.md").find("| " + name + " |"), std::string::npos) << name;
+    EXPECT_NE(page.find("<th scope=\"row\">" + name + "</th>"), std::string::npos) << name;
+  }
+  EXPECT_EQ(page.find("retarget-slices"), std::string::npos) << "no stack was given";
 }
 
 TEST_F(ValidateTextures, OtherPixelsThanRecordedAreRefused) {

@@ -26,6 +26,7 @@
 #include "bn/execution.h"
 #include "bn/gpu.h"
 #include "bn/grid.h"
+#include "bn/spatiotemporal.h"
 
 namespace bn {
 
@@ -60,21 +61,26 @@ std::uint64_t multiset_digest(const Seeds& seeds);
 
 // --- the passes --------------------------------------------------------------------------------
 
-/// The baked textures of one run. check() throws invalid_input naming the first thing that is wrong.
+/// The baked textures of one run: one mask that the step moves, or a stack of masks, one a frame.
 struct TemporalTextures {
-  Grid<std::int32_t> mask;  ///< levels 0..65535
-  Offset step;              ///< d: frame t dithers pixel p with mask texel p + t * d
-  /// Scatter form, each of the mask's size: empty (never retarget), one (plain), or
-  /// (2 * motion_range + 1)^2 variants row by row, the plain one in the middle.
+  /// One or more of one size, levels 0..65535: frame t has mask t mod their number.
+  std::vector<Grid<std::int32_t>> masks;
+  Offset step;  ///< d: frame t dithers pixel p with texel p + t * d of its mask
+  /// Scatter form, each of the masks' size: empty (never retarget), or for each mask the way to the next one,
+  /// the last to the first: one tile (plain), or (2 * motion_range + 1)^2 variants row by row, the plain one
+  /// in the middle.
   std::vector<Grid<Offset>> moves = {};
   int motion_range = 0;  ///< 0..8
-  /// For Sampler::slices: any stack of masks of one size, levels 0..65535; frame t takes slice t mod their
-  /// number.
-  std::vector<Grid<std::int32_t>> slices = {};
 
+  /// Throws invalid_input naming the first thing that is wrong. The rest may be asked of what has passed.
   void check() const;
-  /// The tile for a motion within the range.
-  const Grid<Offset>& move(Offset motion) const;
+  Extent size() const { return masks.front().size(); }
+  /// Of frame `frame` >= 0: its mask's number, the mask, and where the frame begins in it.
+  std::size_t mask_index(std::int64_t frame) const;
+  const Grid<std::int32_t>& mask(std::int64_t frame) const { return masks[mask_index(frame)]; }
+  Offset shift(std::int64_t frame) const;
+  /// The tile that leads from `frame` to the next one, for a motion within the range.
+  const Grid<Offset>& move(Offset motion, std::int64_t frame) const;
 };
 
 /// Where frame `frame` begins in a tile of `tile` texels: frame * step, wrapped into it.
@@ -199,10 +205,9 @@ Scene read_scene(std::string_view toml, const std::string& where);
 enum class Sampler {
   white,        ///< new random seeds each frame
   seeds,        ///< the pixel's seed alone
-  mask_still,   ///< one mask for all frames
-  mask_moved,   ///< the mask moved by the step each frame
-  mask_golden,  ///< the mask's levels turned by the golden ratio each frame
-  slices,       ///< one slice of a stack of masks each frame
+  mask_still,   ///< the first mask for all frames
+  mask_moved,   ///< the frame's mask: one that the step moves, or the next of a stack
+  mask_golden,  ///< the first mask's levels turned by the golden ratio each frame
 };
 
 /// What carries the seeds of one frame to the next. Anything but `none` needs the sampler `seeds`.
@@ -213,29 +218,28 @@ enum class SeedTransport {
   reproject,  ///< sort, and the tile for the mean motion of the picture
 };
 
-/// A sampler with a transport. The eight that have names are those that a study compares.
+/// A sampler with a transport. The seven that have names are those that a study compares.
 struct Method {
   Sampler sampler = Sampler::seeds;
   SeedTransport transport = SeedTransport::none;
   friend constexpr bool operator==(const Method&, const Method&) = default;
 
-  static const Method white, mask_still, mask_moved, mask_golden, slices;
+  static const Method white, mask_still, mask_moved, mask_golden;
   static const Method sort, retarget, reproject;  ///< the temporal algorithm
 };
 inline constexpr Method Method::white{Sampler::white};
 inline constexpr Method Method::mask_still{Sampler::mask_still};
 inline constexpr Method Method::mask_moved{Sampler::mask_moved};
 inline constexpr Method Method::mask_golden{Sampler::mask_golden};
-inline constexpr Method Method::slices{Sampler::slices};
 inline constexpr Method Method::sort{Sampler::seeds, SeedTransport::sort};
 inline constexpr Method Method::retarget{Sampler::seeds, SeedTransport::retarget};
 inline constexpr Method Method::reproject{Sampler::seeds, SeedTransport::reproject};
 
-/// "white", "mask-still", ... of the eight; empty for other combinations.
+/// "white", "mask-still", ... of the seven; empty for other combinations.
 std::string_view name_of(const Method& method);
 inline constexpr Method kMethods[] = {Method::white,       Method::mask_still, Method::mask_moved,
-                                      Method::mask_golden, Method::slices,     Method::sort,
-                                      Method::retarget,    Method::reproject};
+                                      Method::mask_golden, Method::sort,       Method::retarget,
+                                      Method::reproject};
 
 struct RenderSettings {
   Extent screen{256, 256};  ///< sides 1..4096
@@ -289,12 +293,23 @@ std::unique_ptr<Renderer> make_vulkan_renderer(std::shared_ptr<VulkanDevice> dev
 TemporalTextures read_temporal_textures(const std::filesystem::path& folder, std::optional<Offset> step = {},
                                         bool unsafe = false, const Execution& execution = {});
 
-/// A stack of masks: the images of a folder in name order, numbers by their value; the first channel of each.
-/// Errors: io, invalid_input (no images, sizes that differ).
-std::vector<Grid<std::int32_t>> read_slices(const std::filesystem::path& folder,
-                                            const Execution& execution = {});
+/// A stack of masks: a file that holds slices, a pattern (slice_%03d.png), or the images of a folder in name
+/// order, numbers by their value; the first channel of each. With `tiles`, likewise, what `bn retarget` made
+/// of that stack, or without moves.
+/// Errors: io; invalid_input (no images, sizes that differ; tiles of another stack, size or depth);
+/// verification_failed (as above).
+TemporalTextures read_stack_textures(const std::filesystem::path& slices,
+                                     const std::filesystem::path& tiles = {},
+                                     const Execution& execution = {});
 
 /// A 64 x 64 mask of 8 bits and its proven tiles for motions of -range..range, made on the spot.
 TemporalTextures make_temporal_textures(int motion_range, const Execution& execution = {});
+
+/// The same of a stack: 64 x 64 x 32 of a preset, seed 1, at rest, without moves.
+TemporalTextures make_preset_textures(SpatiotemporalPreset preset, const Execution& execution = {});
+
+/// Gives `textures` the proven plain tile of each mask to the next one, by execution.threads.
+/// Errors: those of solve_retarget().
+void solve_moves(TemporalTextures& textures, int radius, const Execution& execution = {});
 
 }  // namespace bn

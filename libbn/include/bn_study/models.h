@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "bn/render.h"
@@ -24,9 +26,27 @@ struct FlatModel {
   std::uint64_t seed = 1;
 };
 
-/// For frame 0 (white noise) to `frames`: power of the values at 0 < f <= 0.1 cycles per pixel
-/// against white noise of the same variance, in dB.
-std::vector<double> run_flat_model(const FlatModel& model, const TemporalTextures& textures);
+/// For frame 0 (white noise) to `frames`, against white noise that is treated alike, in dB.
+struct FlatRun {
+  std::vector<double> power_db;             ///< of a frame's values at 0 < f <= 0.1 cycles per pixel
+  std::vector<double> averaged_db;          ///< mean square error of the exponential average over frames, 0.1
+  std::vector<double> averaged_blurred_db;  ///< and of that after a blur of 1.5 pixels
+};
+FlatRun run_flat_model(const FlatModel& model, const TemporalTextures& textures);
+
+/// Masks on the flat picture: what they leave in a frame and in the average over frames.
+struct StackRow {
+  std::string masks;
+  int radius = 6;         ///< of the tiles, all proven
+  int block = 8;          ///< of the sort
+  double energy = 0.0;    ///< of a tile, the mean
+  double floor_db = 0.0;  ///< power_db of the masks' own levels, which sorting cannot get below
+  std::vector<double> db, averaged_db, averaged_blurred_db;  ///< at `frames`, as in FlatRun
+};
+/// The mask of `moved`, a stack of masks that know nothing of each other, and the presets' stacks, at equal
+/// radius and block: the mean of eight sets of seeds, side by side by execution.threads.
+std::vector<StackRow> study_stacks(const TemporalTextures& moved, std::span<const int> frames,
+                                   const Execution& execution = {});
 
 /// A poster of three by two light and dark cells on a wall, under a pan, without a renderer: what edges and
 /// motion do to the algorithm, with the true picture known exactly.

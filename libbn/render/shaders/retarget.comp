@@ -14,10 +14,12 @@ layout(push_constant) uniform Push {
   ivec2 tile;
   ivec2 shift;
   int motion_range;
+  int mask;     // of the frame that the seeds come from
 };
 
 ivec2 load_move(ivec2 texel) {
-  int variant = (motion.y + motion_range) * (2 * motion_range + 1) + motion.x + motion_range;
+  int side = 2 * motion_range + 1;
+  int variant = (mask * side + motion.y + motion_range) * side + motion.x + motion_range;
   int packed = int(moves[(variant * tile.y + texel.y) * tile.x + texel.x]);
   return ivec2(bitfieldExtract(packed, 0, 16), bitfieldExtract(packed, 16, 16));
 }

@@ -17,10 +17,11 @@ layout(push_constant) uniform Push {
   int seed_pitch;   // width of the padded seed image
   int columns;      // blocks in a row
   int blocks;
+  int mask;         // this frame's
 };
 
 #define BN_LOAD_LUMINANCE(p) luminance[(p).y * screen.x + (p).x]
-#define BN_LOAD_LEVEL(t) level[(t).y * tile.x + (t).x]
+#define BN_LOAD_LEVEL(t) level[(mask * tile.y + (t).y) * tile.x + (t).x]
 #define BN_LOAD_SEED(p) seeds[(p).y * seed_pitch + (p).x]
 #define BN_STORE_SEED(p, seed) seeds[(p).y * seed_pitch + (p).x] = seed
 #include "bn_sort.glsl"
