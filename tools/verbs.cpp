@@ -14,6 +14,7 @@ Verb report_verb();
 Verb retarget_verb();
 Verb spectrum_verb();
 Verb study_anneal_verb();
+Verb study_convergence_verb();
 Verb study_fft_verb();
 Verb study_presets_verb();
 Verb study_temporal_verb();
@@ -30,9 +31,9 @@ std::vector<Verb> all_verbs() {
       verbs.push_back(kind_verb(*kind));
     }
   }
-  for (auto make :
-       {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb, study_fft_verb,
-        study_presets_verb, study_temporal_verb, validate_verb, completion_verb, help_verb}) {
+  for (auto make : {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb,
+                    study_convergence_verb, study_fft_verb, study_presets_verb, study_temporal_verb,
+                    validate_verb, completion_verb, help_verb}) {
     verbs.push_back(make());
   }
   return verbs;
