@@ -119,7 +119,7 @@ SpatiotemporalOptions spatiotemporal_constants(const SpatiotemporalOptions& opti
   if (!o.gauss_share)
     o.gauss_share = o.spatial != SpatialFilter::box ? 0.0 : o.spatial_width < 4.0 ? 0.3 : 0.02;
   if (!o.slice_share) o.slice_share = by_preset(1.0, 0.5, 0.6);
-  if (!o.pixel_share) o.pixel_share = by_preset(1.0, 0.0, 0.55);
+  if (!o.pixel_share) o.pixel_share = by_preset(1.0, 0.0, 0.52);
   if (!o.pixel_sigma) o.pixel_sigma = 1.9;
   return o;
 }

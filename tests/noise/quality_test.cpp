@@ -5,10 +5,12 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <iostream>
 #include <numbers>
 #include <vector>
 
 #include "bn/noise.h"
+#include "bn/spatiotemporal.h"
 #include "bn/random.h"
 #include "reference_void_and_cluster.h"
 
@@ -119,6 +121,33 @@ TEST(Quality, SparsePatternsAreSpreadEvenly) {
     EXPECT_LE(second, sigma == 1.9 ? 0.045 : 0.06) << "sigma " << sigma;
     EXPECT_LE(last_but_one, 0.08) << "sigma " << sigma;
     EXPECT_LE(last, 0.10) << "sigma " << sigma;
+  }
+}
+
+/// Before their sparse ends were made, the first and the last of 256 levels read .55 to .83.
+TEST(Quality, SparsePatternsOfSlicesAreSpreadEvenly) {
+  constexpr std::uint32_t kCount = kSide * kSide;
+  constexpr std::uint32_t kLevel = kCount / 256;
+  constexpr int kSlices = 8;
+  for (const auto preset :
+       {SpatiotemporalPreset::both, SpatiotemporalPreset::filtered, SpatiotemporalPreset::stbn}) {
+    const Grid<std::uint32_t> ranks = spatiotemporal_mask({.size = {kSide, kSide, kSlices}, .preset = preset});
+    double first = 0.0, second = 0.0, last_but_one = 0.0, last = 0.0;
+    for (int z = 0; z < kSlices; ++z) {
+      Grid<std::uint32_t> slice({kSide, kSide});
+      std::copy(ranks.slice(z).begin(), ranks.slice(z).end(), slice.begin());
+      first += low_power(slice, 0, kLevel) / kSlices;
+      second += low_power(slice, 0, 2 * kLevel) / kSlices;
+      last_but_one += low_power(slice, kCount - 2 * kLevel, kCount) / kSlices;
+      last += low_power(slice, kCount - kLevel, kCount) / kSlices;
+    }
+    std::cout << name_of(preset) << ": " << first << " " << second << " " << last_but_one << " " << last
+              << "\n";
+    const bool stbn = preset == SpatiotemporalPreset::stbn;
+    EXPECT_LE(first, stbn ? 0.12 : 0.22) << name_of(preset);
+    EXPECT_LE(second, 0.18) << name_of(preset);
+    EXPECT_LE(last_but_one, stbn ? 0.12 : 0.22) << name_of(preset);
+    EXPECT_LE(last, stbn ? 0.14 : 0.22) << name_of(preset);
   }
 }
 
