@@ -101,6 +101,7 @@ std::string figures_in_full(const SpectrumRow& row) {
   if (f.shape.depth > 1) {
     line("temporal_power_at_0", label_of("temporal_power_at_0"), number(f.temporal_power_at_0));
     line("temporal_power_low", label_of("temporal_power_low"), number(f.temporal_power_low));
+    line("filtered_residual_db", label_of("filtered_residual_db"), number(f.filtered_residual_db));
   }
   line("anisotropy_db_mean", label_of("anisotropy_db_mean"), number(f.anisotropy_db_mean));
   line("anisotropy_db_max", label_of("anisotropy_db_max"), number(f.anisotropy_db_max));

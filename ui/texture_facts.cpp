@@ -47,7 +47,10 @@ std::vector<Row> rows_of(const FiguresOfMerit& f) {
     rows.push_back({"", fmt::format("After blur σ {:.1f}, dB", kResidualSigmas[i]), f.gauss_residual_db[i]});
   }
   rows.push_back({"histogram_max_deviation", "Histogram deviation", f.histogram_max_deviation});
-  if (f.shape.depth > 1) rows.push_back({"temporal_power_at_0", "Power in time at 0", f.temporal_power_at_0});
+  if (f.shape.depth > 1) {
+    rows.push_back({"temporal_power_at_0", "Power in time at 0", f.temporal_power_at_0});
+    rows.push_back({"filtered_residual_db", "Left by blur and average, dB", f.filtered_residual_db});
+  }
   return rows;
 }
 

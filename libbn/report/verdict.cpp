@@ -125,6 +125,7 @@ std::string merit_table(const FiguresOfMerit& figures, const Verdict& verdict, c
   if (figures.shape.depth > 1) {
     with_threshold("temporal_power_at_0", figures.temporal_power_at_0);
     with_threshold("temporal_power_low", figures.temporal_power_low);
+    with_threshold("filtered_residual_db", figures.filtered_residual_db);
   }
   with_threshold("anisotropy_db_mean", figures.anisotropy_db_mean);
   with_threshold("anisotropy_db_max", figures.anisotropy_db_max);

@@ -135,7 +135,7 @@ std::string limits_in_words(double low, double high) {
 }  // namespace
 
 std::string label_of(std::string_view figure) {
-  static constexpr std::array<std::pair<std::string_view, std::string_view>, 13> kLabels{{
+  static constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kLabels{{
       {"bands[0]", "power, 0 < f <= 0.0625"},
       {"bands[1]", "power, 0.0625 < f <= 0.125"},
       {"bands[2]", "power, 0.125 < f <= 0.1875"},
@@ -147,6 +147,7 @@ std::string label_of(std::string_view figure) {
       {"distribution_distance", "distribution, largest distance"},
       {"temporal_power_at_0", "power in time, 0 cycles/frame"},
       {"temporal_power_low", "power in time, 0 < f <= 0.125"},
+      {"filtered_residual_db", "left by blur and average, dB"},
       {"peak", "peak of the radial power"},
       {"depth", "slices"},
   }};

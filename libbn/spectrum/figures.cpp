@@ -79,6 +79,7 @@ FiguresOfMerit figures_of_merit(const PowerSpectrum& power, double histogram_max
     const PowerSpectrum time = project(power, Projection::z);
     figures.temporal_power_at_0 = time.half[0];
     figures.temporal_power_low = mean_of_low(time);
+    figures.filtered_residual_db = filtered_residual_db(power);
     return figures;
   }
   FiguresOfMerit figures{.shape = power.shape, .textures = power.textures, .bands = band_power(power)};

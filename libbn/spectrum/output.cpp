@@ -47,8 +47,10 @@ std::string to_json(const FiguresOfMerit& figures) {
     text += fmt::format(", \"distribution_distance\": {}", number(figures.distribution_distance));
   }
   if (figures.shape.depth > 1) {
-    text += fmt::format(", \"temporal_power_at_0\": {}, \"temporal_power_low\": {}",
-                        number(figures.temporal_power_at_0), number(figures.temporal_power_low));
+    text +=
+        fmt::format(", \"temporal_power_at_0\": {}, \"temporal_power_low\": {}, \"filtered_residual_db\": {}",
+                    number(figures.temporal_power_at_0), number(figures.temporal_power_low),
+                    number(figures.filtered_residual_db));
   }
   return text + "}";
 }

@@ -193,4 +193,29 @@ double gauss_residual_db(const PowerSpectrum& power, double sigma_px) {
   return ratio > 0.0 ? 10.0 * std::log10(ratio) : kNaN;
 }
 
+double filtered_residual_db(const PowerSpectrum& power) {
+  constexpr double kSigma_px = 1.3435, kAlpha = 0.1;
+  const auto [width, height, depth] = power.shape;
+  const int pitch = half_width(power.shape);
+  const std::vector<double> gain_x = gaussian_gain(width, pitch, kSigma_px);
+  const std::vector<double> gain_y = gaussian_gain(height, height, kSigma_px);
+  double left = 0.0, white = 0.0;
+  const double* row = power.half.data();
+  for (int kz = 0; kz < depth; ++kz) {
+    const double turn = std::cos(2.0 * std::numbers::pi * kz / depth);
+    const double in_time =
+        kAlpha * kAlpha / (1.0 - 2.0 * (1.0 - kAlpha) * turn + (1.0 - kAlpha) * (1.0 - kAlpha));
+    for (int ky = 0; ky < height; ++ky, row += pitch) {
+      for (int kx = kz == 0 && ky == 0 ? 1 : 0; kx < pitch; ++kx) {
+        const double weight = kx == 0 || 2 * kx == width ? 1.0 : 2.0;
+        const double gain =
+            weight * in_time * gain_y[static_cast<std::size_t>(ky)] * gain_x[static_cast<std::size_t>(kx)];
+        left += gain * row[kx];
+        white += gain;
+      }
+    }
+  }
+  return left > 0.0 ? 10.0 * std::log10(left / white) : kNaN;
+}
+
 }  // namespace bn

@@ -128,7 +128,7 @@ TEST(Quality, SparsePatternsAreSpreadEvenly) {
 TEST(Quality, SparsePatternsOfSlicesAreSpreadEvenly) {
   constexpr std::uint32_t kCount = kSide * kSide;
   constexpr std::uint32_t kLevel = kCount / 256;
-  constexpr int kSlices = 8;
+  constexpr int kSlices = 16;
   for (const auto preset :
        {SpatiotemporalPreset::both, SpatiotemporalPreset::filtered, SpatiotemporalPreset::stbn}) {
     const Grid<std::uint32_t> ranks = spatiotemporal_mask({.size = {kSide, kSide, kSlices}, .preset = preset});
@@ -144,10 +144,10 @@ TEST(Quality, SparsePatternsOfSlicesAreSpreadEvenly) {
     std::cout << name_of(preset) << ": " << first << " " << second << " " << last_but_one << " " << last
               << "\n";
     const bool stbn = preset == SpatiotemporalPreset::stbn;
-    EXPECT_LE(first, stbn ? 0.12 : 0.22) << name_of(preset);
+    EXPECT_LE(first, stbn ? 0.12 : 0.24) << name_of(preset);
     EXPECT_LE(second, 0.18) << name_of(preset);
-    EXPECT_LE(last_but_one, stbn ? 0.12 : 0.22) << name_of(preset);
-    EXPECT_LE(last, stbn ? 0.14 : 0.22) << name_of(preset);
+    EXPECT_LE(last_but_one, stbn ? 0.12 : 0.24) << name_of(preset);
+    EXPECT_LE(last, stbn ? 0.14 : 0.24) << name_of(preset);
   }
 }
 

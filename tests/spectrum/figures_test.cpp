@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <numeric>
 
 #include "bn/noise.h"
 #include "direct_dft.h"
@@ -84,9 +85,9 @@ TEST(Figures, ThreadsChangeNoBit) {
 
 TEST(Figures, JsonHasTheirNames) {
   const auto json = nlohmann::json::parse(to_json(figures_of(test::white_values(8 * 8 * 8, 1), {8, 8, 8})));
-  for (const char* name :
-       {"bands", "peak", "peak_frequency", "anisotropy_db_mean", "anisotropy_db_max", "gauss_residual_db",
-        "histogram_max_deviation", "temporal_power_at_0", "temporal_power_low", "textures"}) {
+  for (const char* name : {"bands", "peak", "peak_frequency", "anisotropy_db_mean", "anisotropy_db_max",
+                           "gauss_residual_db", "histogram_max_deviation", "temporal_power_at_0",
+                           "temporal_power_low", "filtered_residual_db", "textures"}) {
     EXPECT_TRUE(json.contains(name)) << name;
   }
   EXPECT_EQ(json["bands"].size(), 5u);
@@ -189,6 +190,63 @@ TEST(Figures, PetersChannelsAreAlike) {
     EXPECT_NEAR(figures.gauss_residual_db[1], -24.3, 0.5);
     EXPECT_TRUE(check(figures, Check::blue).empty());
   }
+}
+
+/// A renderer's blur and exponential average of slices around and around, written out: the power that is
+/// left.
+double power_after_filters(std::vector<double> values, Shape shape) {
+  const double mean = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  double before = 0.0;
+  for (double& v : values) {
+    v -= mean;
+    before += v * v;
+  }
+  const int area = shape.width * shape.height;
+  std::vector<double> blurred(values.size());
+  for (int z = 0; z < shape.depth; ++z) {
+    for (int y = 0; y < shape.height; ++y) {
+      for (int x = 0; x < shape.width; ++x) {
+        double sum = 0.0, weights = 0.0;
+        for (int dy = -16; dy <= 16; ++dy) {
+          for (int dx = -16; dx <= 16; ++dx) {
+            const double weight = std::exp(-(dx * dx + dy * dy) / (2.0 * 1.3435 * 1.3435));
+            const int at = wrap(y + dy, shape.height) * shape.width + wrap(x + dx, shape.width);
+            sum += weight * values[static_cast<std::size_t>(z * area + at)];
+            weights += weight;
+          }
+        }
+        blurred[static_cast<std::size_t>(z * area + y * shape.width + x)] = sum / weights;
+      }
+    }
+  }
+  std::vector<double> average(static_cast<std::size_t>(area));
+  double after = 0.0;
+  constexpr int kCycles = 60;
+  for (int frame = 0; frame < kCycles * shape.depth; ++frame) {
+    for (int i = 0; i < area; ++i) {
+      double& one = average[static_cast<std::size_t>(i)];
+      one += 0.1 * (blurred[static_cast<std::size_t>(frame % shape.depth * area + i)] - one);
+      if (frame >= (kCycles - 1) * shape.depth) after += one * one;
+    }
+  }
+  return after / before;
+}
+
+TEST(FilteredResidual, EqualsFiltersWrittenOut) {
+  for (const Shape shape : {Shape{16, 12, 8}, {9, 7, 5}, {8, 8, 1}}) {
+    std::vector<double> impulse(static_cast<std::size_t>(shape.count()));
+    impulse[0] = 1.0;  // all frequencies alike, as white noise on average
+    const std::vector<double> values = test::white_values(shape.count(), 3);
+    const double expected =
+        10.0 * std::log10(power_after_filters(values, shape) / power_after_filters(impulse, shape));
+    EXPECT_NEAR(filtered_residual_db(power_spectrum(values, shape)), expected, 1e-6);
+  }
+}
+
+TEST(FilteredResidual, WhiteNoiseReadsZero) {
+  const Shape shape{32, 32, 16};
+  EXPECT_NEAR(filtered_residual_db(power_spectrum(test::white_values(shape.count(), 1), shape)), 0.0, 0.7);
+  EXPECT_TRUE(std::isnan(filtered_residual_db(power_spectrum(std::vector<double>(32, 1.0), {4, 4, 2}))));
 }
 
 }  // namespace

@@ -145,6 +145,13 @@ double gauss_residual_db(const PowerSpectrum& power, double sigma_px);
 
 inline constexpr std::array<double, 3> kResidualSigmas{1.0, 1.5, 2.0};
 
+/// What is left of a volume's power where a renderer takes slice t in frame t, around and around, blurs each
+/// frame (a Gaussian of 1.3435 pixels) and averages frames exponentially (alpha 0.1), against what is left of
+/// white noise: 10 log10(sum P G^2 A^2 / sum G^2 A^2) over k != 0, G as above, A^2 = alpha^2 / (1 - 2 (1 - alpha)
+/// cos w + (1 - alpha)^2) at the angular frequency w in time. Both constants are those that published
+/// spatiotemporal masks are compared with (docs/spatiotemporal.md).
+double filtered_residual_db(const PowerSpectrum& power);
+
 /// Bins of the histogram that figures of merit are made from; fewer where a texture has fewer pixels.
 inline constexpr int kHistogramBins = 256;
 
@@ -177,6 +184,8 @@ struct FiguresOfMerit {
   double temporal_power_at_0 = std::numeric_limits<double>::quiet_NaN();
   /// and at 0 < f <= 1/8 cycles/frame, which tells whether the order is a good one; NaN below 8 slices.
   double temporal_power_low = std::numeric_limits<double>::quiet_NaN();
+  /// What a blur and an average over frames leave: filtered_residual_db().
+  double filtered_residual_db = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// The figures of one power spectrum, of a line, picture or volume. The peak is sought over annuli one
@@ -205,7 +214,7 @@ std::string curves_csv(const PowerSpectrum& power);
 
 /// One JSON object: size ([width, height]), depth, textures, bands, peak, peak_frequency, anisotropy_db_mean,
 /// anisotropy_db_max, gauss_residual_db, histogram_max_deviation, distribution; distribution_distance where
-/// the distribution is not uniform; temporal_power_at_0 and temporal_power_low for volumes. Undefined figures
+/// the distribution is not uniform; temporal_power_at_0, temporal_power_low and filtered_residual_db for volumes. Undefined figures
 /// are null. docs/spectrum.md describes each.
 std::string to_json(const FiguresOfMerit& figures);
 
