@@ -35,6 +35,10 @@ constexpr double kTemporalLimit = 0.05;
 /// lost.
 constexpr double kTemporalLowLimit = 0.3;
 
+/// What blur and average leave: -24 to -31 dB in good volumes of any size, -20 where frames are good but
+/// know nothing of each other, 0 in white noise.
+constexpr double kFilteredLimit_db = -21.5;
+
 /// An annulus of a single texture scatters like white noise: 0 dB, and averaged over annuli -0.5 .. 0 with a
 /// standard deviation of 0.35 dB at 32 x 32. A Bayer matrix reads above +10.
 constexpr double kAnisotropyMeanMargin_db = 1.5;
@@ -108,6 +112,7 @@ class Judge {
   void expect_blue_in_time() {
     expect("temporal_power_at_0", figures_.temporal_power_at_0, 0.0, kTemporalLimit);
     expect("temporal_power_low", figures_.temporal_power_low, 0.0, kTemporalLowLimit);
+    expect("filtered_residual_db", figures_.filtered_residual_db, -kAny, kFilteredLimit_db);
   }
 
   void expect_volume() {

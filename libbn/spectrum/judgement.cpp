@@ -15,7 +15,8 @@ std::vector<std::string> wanted_figures(Check kind) {
   std::vector<std::string> names{"bands[0]", "bands[1]", "bands[2]", "bands[3]"};
   if (kind == Check::white) names.push_back("bands[4]");
   names.insert(names.end(), {"anisotropy_db_mean", "anisotropy_db_max"});
-  if (kind == Check::stbn) names.insert(names.end(), {"temporal_power_at_0", "temporal_power_low"});
+  if (kind == Check::stbn)
+    names.insert(names.end(), {"temporal_power_at_0", "temporal_power_low", "filtered_residual_db"});
   return names;
 }
 

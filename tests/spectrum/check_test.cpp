@@ -132,7 +132,7 @@ TEST(CheckStbn, FailsMasksThatAreIndependentInTime) {
     volume.insert(volume.end(), rank.begin(), rank.end());
   }
   EXPECT_EQ(failures(volume, shape, 1024.0, Check::stbn),
-            (std::vector<std::string>{"temporal_power_at_0", "temporal_power_low"}));
+            (std::vector<std::string>{"temporal_power_at_0", "temporal_power_low", "filtered_residual_db"}));
 }
 
 TEST(CheckStbn, FailsSlicesOutOfOrder) {
