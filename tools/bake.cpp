@@ -64,8 +64,9 @@ void print_plan(const BakePlan& plan, const Settings& settings, Output& output) 
   }
   std::string text;
   for (const auto& job : plan.jobs) {
-    text += fmt::format("{:10} {:13} {:20} {:>8.2f} s  {}\n", job.up_to_date ? "up to date" : "to bake",
-                        job.kind, job.name, job.estimated_seconds, files_text(job.files));
+    text += fmt::format("{:10} {:13} {:20} {:>10}  {}\n", job.up_to_date ? "up to date" : "to bake", job.kind,
+                        job.name, job.up_to_date ? "" : fmt::format("{:.2f} s", job.estimated_seconds),
+                        files_text(job.files));
   }
   output.tell(text + fmt::format("about {} on one core, {:.0f} MiB of memory; nothing was written\n",
                                  readable_duration(plan.estimated_seconds),
@@ -88,8 +89,10 @@ void print_result(const BakeResult& result, const Settings& settings, Session& s
     for (const auto& file : job.files) paths.push_back(file.path);
     const std::string energy = energy_text(job.tiles);
     text +=
-        fmt::format("{:10} {:13} {:20} {:>8.2f} s  {}{}\n", job.skipped ? "up to date" : "baked", job.kind,
-                    job.name, job.seconds, files_text(paths), energy.empty() ? "" : "  energy " + energy);
+        // What took no time now has none to show.
+        fmt::format("{:10} {:13} {:20} {:>10}  {}{}\n", job.skipped ? "up to date" : "baked", job.kind,
+                    job.name, job.skipped ? "" : fmt::format("{:.2f} s", job.seconds), files_text(paths),
+                    energy.empty() ? "" : "  energy " + energy);
     for (const auto& note : job.notes) session.progress.note(fmt::format("{}: {}", job.name, note));
   }
   session.output.tell(text + fmt::format("{} in {:.2f} s\n", result.manifest.string(), result.seconds));

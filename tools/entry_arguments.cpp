@@ -51,8 +51,10 @@ std::string allowed_of(const Option& option) {
     case OptionType::measured:
       return allowed_text(option);
     case OptionType::size:
+      return fmt::format("each {} {}; one number is a square", whole(), option.unit);
     case OptionType::shape:
-      return fmt::format("each {} {}", whole(), option.unit);
+      return fmt::format("each {} {}; without a depth one slice, one number is a square", whole(),
+                         option.unit);
     case OptionType::offset:
       return "two whole numbers" + (option.unset_word.empty() ? "" : ", or " + option.unset_word);
     case OptionType::integers:
@@ -113,8 +115,10 @@ Argument argument_of(const Option& option) {
   if (is_boolean) argument.choices = {"true", "false"};
   if (!option.unset_word.empty()) argument.choices = {option.unset_word};
   if (!argument.choices.empty()) argument.completion = Completion::choice;
-  if (option.type == OptionType::choice && !option.needs.empty() && option.words.size() > 4)
+  if (option.type == OptionType::choice && !option.needs.empty() && option.words.size() > 4) {
     argument.placeholder = "NAME";
+    argument.allowed = fmt::format("{}", fmt::join(option.words, ", "));
+  }
   if (option.needs.starts_with("method = \"")) {
     const std::size_t from = std::string_view("method = \"").size();
     argument.group = "With --method " + option.needs.substr(from, option.needs.find('"', from) - from);

@@ -48,7 +48,7 @@ Verb help_verb() {
   const auto all = std::make_shared<bool>(false), recipes = std::make_shared<bool>(false);
   Verb verb;
   verb.name = "help";
-  verb.summary = "Print the overview, or the whole manual.";
+  verb.summary = "Print the overview, the help of one verb, or the whole manual.";
   verb.examples = {{"bn help", "the overview, as bn --help"},
                    {"bn help --all | less", "the help of every verb, as Markdown"},
                    {"bn help --recipes", "every key of a recipe"},

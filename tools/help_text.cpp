@@ -133,12 +133,14 @@ std::string overview_help(const std::vector<Verb>& verbs, const Arguments& globa
        {"bn noise void-and-cluster --size 128x128 --seed 1 -o mask.png", "one blue-noise mask"},
        {"bn retarget mask.png --radius 6 --motion 4 -o atlas.png", "its 81 retarget tiles, proven optimal"},
        {"bn verify out", "recompute every figure that the files claim"}});
-  text += "bn bakes blue-noise masks and proven retarget textures for real-time path tracing.\n\n";
+  text +=
+      "bn bakes blue-noise masks, single ones and one a frame, and proven retarget\ntiles, for real-time "
+      "path tracing.\n\n";
   text += "Usage: bn VERB [ARGUMENTS]\n\nVerbs\n";
   for (const auto& verb : verbs) text += line(verb.name, verb.summary);
   text += "\n" + arguments_text("Options of every verb", globals, false);
   text += std::string(kExitCodes) + "\n";
-  return text + "bn VERB --help explains one verb. Results go to stdout, progress and messages to stderr.\n";
+  return text + "bn VERB --help explains one verb. Results go to stdout, progress and messages to\nstderr.\n";
 }
 
 std::string group_help(const std::string& group, const std::vector<Verb>& verbs) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "bn/volume.h"
 #include "tools/entry_arguments.h"
 
 namespace bn::tools {
@@ -25,6 +26,7 @@ void run(Settings& settings, Session& session) {
   if (settings.count > 1) {
     all.clear();
     for (int i = 0; i < settings.count; ++i) all.push_back(numbered_entry(entry, i));
+    make_folder_of(settings.out);
   }
   const Execution execution = session.execution_showing(entry.kind().table);
   std::vector<JobRecord> jobs;

@@ -76,7 +76,14 @@ void flatten(const std::string& name, const Json& value, Lines& lines) {
     for (const auto& item : value) joined += (joined.empty() ? "" : ",") + scalar_text(item);
     lines.emplace_back(name, joined);
   } else if (value.is_array()) {
-    for (std::size_t i = 0; i < value.size(); ++i) flatten(fmt::format("{}[{}]", name, i), value[i], lines);
+    // A line an item, of which the first names them all.
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      Lines members;
+      flatten("", value[i], members);
+      std::string joined;
+      for (const auto& [member, text] : members) joined += (joined.empty() ? "" : "  ") + text;
+      lines.emplace_back(i == 0 ? name : "", joined);
+    }
   } else {
     lines.emplace_back(name, scalar_text(value));
   }

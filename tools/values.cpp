@@ -113,6 +113,8 @@ ValueKind<std::vector<std::string>> word_list(std::vector<std::string> words) {
   ValueKind<std::vector<std::string>> kind;
   kind.placeholder = "NAMES";
   kind.allowed = fmt::format("{}; several with commas", fmt::join(words, ", "));
+  kind.completion = Completion::choice;
+  kind.choices = words;
   kind.parse = [words](std::string_view text, std::string_view where) {
     std::vector<std::string> chosen;
     if (text == words.front()) return chosen;

@@ -119,7 +119,7 @@ class Arguments {
                      .short_name = std::move(short_name),
                      .placeholder = kind.placeholder,
                      .help = std::move(help),
-                     .allowed = kind.completion == Completion::choice ? "" : kind.allowed,
+                     .allowed = kind.allowed,
                      .initial = "",
                      .completion = kind.completion,
                      .choices = kind.choices,

@@ -66,6 +66,7 @@ struct BakeView::Watch {
 void BakeView::open(const std::filesystem::path& recipe) {
   recipe_path_ = recipe;
   planned_path_.clear();
+  fresh_ = true;
 }
 
 void BakeView::parameters(Parameters& p) {
@@ -107,6 +108,7 @@ void BakeView::update(App& app) {
   try {
     if (auto planned = planning_.poll()) {
       planned_ = std::move(*planned);
+      if (std::exchange(fresh_, false)) app.say(fmt::format("Opened {}", recipe_path_.filename().string()));
       read_sheet();
     }
   } catch (...) {

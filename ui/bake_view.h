@@ -53,6 +53,7 @@ class BakeView {
 
   std::filesystem::path planned_path_;  ///< the recipe that was last tried ...
   std::string planned_out_;             ///< ... for this folder
+  bool fresh_ = false;                  ///< opened, and not yet said so
   std::optional<Planned> planned_;
   std::shared_ptr<Watch> watch_;
   Task<Planned> planning_;

@@ -71,7 +71,7 @@ class Script {
   int line_ = 0, scrolled_to_ = -1;  ///< the latter: the line for whose sake it was scrolled
   std::deque<Input> inputs_;
   ImVec2 mouse_{-1, -1};
-  int frames_to_wait_ = 0;
+  int frames_to_wait_ = 4;  // until the window has found its layout
   std::vector<std::string> condition_;  ///< of a wait-for
   Clock::time_point deadline_{}, last_frame_{};
   std::filesystem::path screenshot_;

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
+#include "bn/judgement.h"
 #include "bn/report.h"
 #include "ui/app.h"
 #include "ui/recipe_text.h"
@@ -50,8 +52,16 @@ std::vector<Row> rows_of(const FiguresOfMerit& f) {
   if (f.shape.depth > 1) {
     rows.push_back({"temporal_power_at_0", "Power in time at 0", f.temporal_power_at_0});
     rows.push_back({"filtered_residual_db", "Left by blur and average, dB", f.filtered_residual_db});
+    rows.push_back({"temporal_power_low", "Power in time, f 0…0.125", f.temporal_power_low});
   }
   return rows;
+}
+
+/// What the entry of kThresholds asks for.
+std::optional<Check> check_of(int thresholds, Check fitting) {
+  constexpr std::array<std::optional<Check>, 3> kNamed{Check::blue, Check::white, Check::stbn};
+  if (thresholds == 0) return fitting;
+  return thresholds == 1 ? std::nullopt : kNamed.at(static_cast<std::size_t>(thresholds) - 2);
 }
 
 }  // namespace
@@ -185,14 +195,15 @@ void TextureView::draw_figures() {
   if (!analysis_) return note(analysing_.running() ? "Transforming …" : "");
   const FiguresOfMerit& figures = analysis_->figures;
   std::vector<JudgedFigure> judged;
-  if (thresholds_ == 0) judged = judge(figures, natural_check(figures.shape, texture_->metadata));
-  if (thresholds_ == 2) judged = judge(figures, Check::blue);
-  if (thresholds_ == 3) judged = judge(figures, Check::white);
-  if (thresholds_ == 4) judged = judge(figures, Check::stbn);
-  if (!judged.empty()) {
+  if (const auto check = check_of(thresholds_, natural_check(figures.shape, texture_->metadata))) {
+    judged = judge(figures, *check);
     const bool all =
         std::all_of(judged.begin(), judged.end(), [](const auto& figure) { return figure.passed; });
     value("Check", all ? "pass" : "FAIL", all ? palette().good : palette().bad);
+    if (const double score = grade(figures, *check).score; !std::isnan(score)) {
+      value("Grade", fmt::format("{:.0f} of 100", score),
+            "100: as good as the best known of its size; 0: no better than white noise");
+    }
   }
   if (!ImGui::BeginTable("figures", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
   ImGui::TableSetupColumn("figure", 0, 2.2f);

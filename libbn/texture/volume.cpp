@@ -166,6 +166,10 @@ Volume read_volume(const fs::path& input, AtlasLayout atlas, const Execution& ex
   return read_volume(std::span(&input, 1), atlas, execution);
 }
 
+void make_folder_of(const fs::path& path) {
+  if (const fs::path folder = folder_to_make(path); !folder.empty()) make_folder(folder);
+}
+
 void check_volume_writable(const fs::path& path, Shape shape, SampleType type, int channels,
                            const VolumeOutput& output) {
   texture::check_shape(shape.width, shape.height, channels, path.string());
@@ -198,7 +202,7 @@ std::vector<fs::path> write_volume(const fs::path& path, const Image& volume, co
   check_volume_writable(path, volume.shape(), volume.type, volume.channels, output);
   if (has_number(path)) {
     std::vector<fs::path> files;
-    if (const fs::path folder = folder_to_make(path); !folder.empty()) make_folder(folder);
+    make_folder_of(path);
     for (int z = 0; z < volume.depth; ++z) {
       files.push_back(numbered_path(path, z));
       write_image(files.back(), slice_of(volume, z), metadata);

@@ -84,8 +84,9 @@ unset logscale
 
 # surface.csv: proposals,worsening_class,share on a full grid; NaN where fewer than eight were tried. A short run has counted
 # hardly any, and a figure of it would be empty.
+undefine STATS_*  # stays so where no number stands
 stats "surface.csv" skip 1 using 3 nooutput
-if (STATS_records > 0.3*(STATS_records+STATS_invalid)) {
+if (exists("STATS_records") && STATS_records > 0.3*(STATS_records+STATS_invalid)) {
 set output figure("acceptance_surface")
 set title "Accepted share of worsening swaps, exponential, from a start that accepts everything\n{/*0.9 grey: fewer than eight tried}"
 set ylabel "rise of the energy, levels"

@@ -276,6 +276,16 @@ TEST_F(AnnealVerb, TheStudyMakesItsFigures) {
   EXPECT_EQ(read_bytes(scratch_ / "study/runs.csv"), runs);
 }
 
+TEST_F(AnnealVerb, TracesTooShortToCountAnythingMakeTheirFigures) {
+  write_image(scratch_ / "small.png", simple_mask(8), {});
+  const auto result = run({"study", "anneal", "small.png", "--step", "3,1", "--radii", "2", "--schedules",
+                           "inverse", "--budgets", "1e3", "--part", "traces", "-o", "study"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  if (result.err.find("gnuplot is not installed") != std::string::npos) GTEST_SKIP() << result.err;
+  EXPECT_EQ(result.err.find("no figures"), std::string::npos) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "study/acceptance_surface.svg")) << "it would be empty";
+}
+
 TEST_F(AnnealVerb, TheStudyTakesSchedulesAndBudgets) {
   write_image(scratch_ / "small.png", simple_mask(8), {});
   const std::vector<std::string> words{"study",   "anneal", "small.png", "--step", "3,1",

@@ -19,6 +19,11 @@ TEST(Output, NestedNamesAreJoinedByDots) {
   EXPECT_EQ(lines_of({{"a", {{"b", 1}, {"c", {1, 2}}}}, {"long", true}}), "a.b   1\na.c   1,2\nlong  yes\n");
 }
 
+TEST(Output, AListOfThingsHasALineAThing) {
+  const nlohmann::ordered_json files{{{"file", "a.png"}, {"hash", "1"}}, {{"file", "b.png"}, {"hash", "2"}}};
+  EXPECT_EQ(lines_of({{"count", 2}, {"files", files}}), "count  2\nfiles  a.png  1\n       b.png  2\n");
+}
+
 TEST(Output, ParagraphsFitEightyColumnsAndLeaveWordsWhole) {
   EXPECT_EQ(paragraph("", 6), "");
   EXPECT_EQ(paragraph("short", 6), "      short\n");

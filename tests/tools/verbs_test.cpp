@@ -51,6 +51,22 @@ TEST_F(Verbs, NoiseWritesAMaskAndSaysWhatItIs) {
   EXPECT_EQ(info.at("metadata").at("seed"), 7);
 }
 
+TEST_F(Verbs, ASeriesHasAFolderOfItsOwn) {
+  const auto series = [&](const char* path, int exit_code) {
+    run({"noise", "void-and-cluster", "--size", "8", "--count", "2", "-o", path}, exit_code);
+  };
+  series("set/m%02d.png", 0);
+  EXPECT_EQ(names_in(scratch_ / "set"), (std::vector<std::string>{"m00.png", "m01.png"}));
+  series("no/such/m%02d.png", 2);  // only the last folder is made
+  EXPECT_FALSE(std::filesystem::exists(scratch_ / "no"));
+}
+
+TEST_F(Verbs, HelpNamesTheSchedules) {
+  const auto help = run({"retarget", "--help"});
+  for (const char* schedule : {"kirkpatrick", "hajek", "inverse"})
+    EXPECT_NE(help.out.find(std::string(" ") + schedule + ","), std::string::npos) << schedule;
+}
+
 TEST_F(Verbs, ManyMoreThreadsThanCoresAreNothingToWarnOf) {
   const ProcessResult result =
       run({"noise", "void-and-cluster", "--size", "64x64", "--threads", "1024", "-o", "m.png"});
@@ -109,6 +125,10 @@ TEST_F(Verbs, BakeMakesSkipsAndVerifies) {
 
   const Json again = json({"bake", "r.toml", "--out", "out", "--json"});
   for (const auto& job : again.at("jobs")) EXPECT_EQ(job.at("skipped"), true) << job;
+  const auto in_words = run({"bake", "r.toml", "--out", "out"});
+  EXPECT_NE(in_words.out.find("up to date mask "), std::string::npos) << in_words.out;
+  EXPECT_EQ(in_words.out.find(" s  m.png"), std::string::npos) << "no time of an earlier run:\n"
+                                                               << in_words.out;
   const Json forced = json({"bake", "r.toml", "--out", "out", "--json", "--force"});
   for (const auto& job : forced.at("jobs")) EXPECT_EQ(job.at("skipped"), false) << job;
 
@@ -175,10 +195,10 @@ TEST_F(Verbs, HelpOfAMisspeltVerbNamesTheNearest) {
 }
 
 TEST_F(Verbs, EveryLineOfHelpFitsEightyColumns) {
-  for (const char* verb : {"noise", "retarget", "spectrum", "study"}) {
-    std::istringstream lines(run({"help", verb}).out);
-    for (std::string line; std::getline(lines, line) && line != "Exit codes";)
-      EXPECT_LE(line.size(), 80u) << line;
+  for (const std::string verb : {"", "noise", "retarget", "spectrum", "study"}) {
+    std::istringstream lines(
+        run(verb.empty() ? std::vector<std::string>{"help"} : std::vector<std::string>{"help", verb}).out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
   }
 }
 

@@ -30,6 +30,7 @@ expect Size = "64 × 64"
 expect Kind = mask
 expect Seed = 1
 wait-for Check = pass
+expect Grade contains "of 100"
 expect "Power, f 0.1875…0.25" = )s" +
                              std::string(band) + R"s(
 expect Picture = "64 × 64"

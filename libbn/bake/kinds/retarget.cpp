@@ -105,10 +105,11 @@ void RetargetEntry::check_inputs(const std::vector<Shape>& shapes, const Complai
 }
 
 int RetargetEntry::output_channels(std::size_t output) const {
-  // DXGI knows no three channels but floats: x and y alone, or the move in a volume and alpha.
-  const bool has_three =
-      lower_case_extension(outputs.at(output).path) != ".dds" || output_type(output) == SampleType::f32;
-  return has_three ? 3 : volume ? 4 : 2;
+  // Few devices sample textures of three channels, and DXGI has no format for them but floats. So files for
+  // devices hold x and y alone, or the move in a volume and alpha.
+  const std::string extension = lower_case_extension(outputs.at(output).path);
+  if (extension != ".dds" && extension != ".ktx2") return 3;
+  return volume ? 4 : 2;
 }
 
 int RetargetEntry::output_depth(std::size_t, const std::vector<Shape>& input_shapes) const {

@@ -127,7 +127,7 @@ void declare_annealing(Options& options, RetargetEntry& entry) {
 Options RetargetEntry::options() {
   Options options;
   const auto reads_image = [this] { return !image.empty(); };
-  options.text("image", image, "The source: an image file, relative to the recipe.").naming_file();
+  options.text("image", image, "The source: an image file.").naming_file();
   options.integer("channel", channel, 0, 63, "The channel of the image, 0 for red.")
       .only_if([this] { return !image.empty() && !(anneals && !anneal.channels.empty()); },
                "image = \"path\", and without channels");

@@ -84,6 +84,10 @@ Volume read_volume(std::span<const std::filesystem::path> inputs, AtlasLayout at
 Volume read_volume(const std::filesystem::path& input, AtlasLayout atlas = {},
                    const Execution& execution = {});
 
+/// Makes the folder of `path`, a name with a place for a number, if only that folder is missing: files of one
+/// series have a folder of their own. Errors: io.
+void make_folder_of(const std::filesystem::path& path);
+
 struct VolumeOutput {
   SliceKind slices = SliceKind::layers;  ///< for .ktx2 and .dds
   AtlasLayout atlas = {};                ///< columns > 0: one picture; rows need not be given
