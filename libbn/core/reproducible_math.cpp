@@ -43,4 +43,30 @@ double reproducible_log(double x) {
   return k * kLn2High + (2.0 * (s + s * sum) + k * kLn2Low);
 }
 
+CosineSine reproducible_turn(double turns) {
+  // The nearest quarter of a turn, and an angle of up to an eighth of one from there.
+  const double quarter = std::floor(turns * 4.0 + 0.5);
+  constexpr double kHalfPi = 1.5707963267948966;
+  const double angle = (turns * 4.0 - quarter) * kHalfPi;
+  const double square = angle * angle;
+  // Taylor series by Horner's rule; the terms of order 18 and 19 are below 2^-58.
+  double cosine = 1.0;
+  double sine = 1.0;
+  for (int n = 16; n >= 2; n -= 2) {
+    cosine = 1.0 - cosine * square / (n * (n - 1));
+    sine = 1.0 - sine * square / (n * (n + 1));
+  }
+  sine *= angle;
+  switch (static_cast<int>(quarter) % 4) {
+    case 0:
+      return {cosine, sine};
+    case 1:
+      return {-sine, cosine};
+    case 2:
+      return {-cosine, -sine};
+    default:
+      return {sine, -cosine};
+  }
+}
+
 }  // namespace bn

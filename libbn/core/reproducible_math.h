@@ -13,4 +13,11 @@ double reproducible_exp(double x);
 /// Below that range ln(2^-1022).
 double reproducible_log(double x);
 
+struct CosineSine {
+  double cosine;
+  double sine;
+};
+/// Of the angle that is so many turns, 0 <= turns <= 1; within 2^-52 absolute, exact at quarters of a turn.
+CosineSine reproducible_turn(double turns);
+
 }  // namespace bn

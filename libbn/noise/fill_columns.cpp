@@ -269,8 +269,8 @@ Voxel least_of_four(const ColumnField<Lane>& field, const Voxel& v) {
   Voxel best{};
   std::int32_t least = kFullColumn;
   for (int i = 0; i < 4; ++i) {
-    const Voxel place{along(v.x, i % 2, width), along(v.y, i / 2, height), v.slice};
-    const std::int32_t energy = field.energy(std::int64_t{place.y} * width + place.x, place.slice);
+    const Voxel place{along(v.x, i % 2, width), along(v.y, i / 2, height), v.z};
+    const std::int32_t energy = field.energy(std::int64_t{place.y} * width + place.x, place.z);
     if (energy >= least) continue;
     least = energy;
     best = place;
@@ -290,8 +290,8 @@ struct VectorsOf {
       const Voxel v = least_of_four(field, of_half);
       places.push_back(v);
       const std::int64_t at = std::int64_t{v.y} * field.columns().width + v.x;
-      field.column(at)[v.slice] = Lanes<Lane>::kSet;
-      adder.add(v.x, v.y, v.slice);
+      field.column(at)[v.z] = Lanes<Lane>::kSet;
+      adder.add(v.x, v.y, v.z);
       adder.update(at);
     }
     return places;

@@ -9,14 +9,9 @@
 
 #include "noise/column_field.h"
 #include "noise/row_locks.h"
+#include "noise/voxel.h"
 
 namespace bn::noise {
-
-struct Voxel {
-  int x;
-  int y;
-  int slice;
-};
 
 /// The columns that a thread fills: rows first..first+count-1.
 struct RowRange {

@@ -119,7 +119,7 @@ void replace_by_keys(Grid<std::uint32_t>& energies, std::span<const Voxel> first
   const Extent slice{energies.width(), energies.height()};
   for (std::uint32_t i = 0; i < first.size(); ++i) {
     const Voxel& v = first[i];
-    energies[static_cast<std::size_t>(v.slice * slice.area() + std::int64_t{v.y} * slice.width + v.x)] = i;
+    energies[static_cast<std::size_t>(v.z * slice.area() + std::int64_t{v.y} * slice.width + v.x)] = i;
   }
 }
 

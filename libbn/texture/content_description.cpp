@@ -37,6 +37,19 @@ void add_spatiotemporal(std::vector<std::string>& sentences, const Image& image,
                : std::string("in the volume, N its voxels")));
 }
 
+void add_vectors(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
+  const std::string values = metadata.facts.get<std::string>("values").value_or("vectors");
+  const bool directions = values == "sphere" || values == "hemisphere";
+  const int levels = image.type == SampleType::u8 ? 256 : 65536;
+  const bool whole = image.type == SampleType::u8 || image.type == SampleType::u16;
+  const std::string share = whole ? fmt::format("(sample + 0.5) / {}", levels) : "the sample";
+  sentences.push_back(
+      fmt::format("{}of values {}: {} is {}.",
+                  image.depth > 1 ? "Slice t is the blue-noise mask of frame t, " : "A blue-noise mask ",
+                  values, values == "circle" ? "the fraction of a turn" : "a component",
+                  directions && whole ? fmt::format("2 {} - 1", share) : share));
+}
+
 void add_moves(std::vector<std::string>& sentences, const Image& image, const Metadata& metadata) {
   const bool gather = metadata.facts.get<std::string>("form") == "gather";
   const bool volume = metadata.facts.get<int>("step_z").has_value();
@@ -63,6 +76,7 @@ std::vector<std::string> content_description(const Image& image, const Metadata&
   const bool atlas = metadata.kind == "retarget-atlas";
   if (metadata.kind == "mask") add_mask(sentences, image);
   if (metadata.kind == "spatiotemporal-mask") add_spatiotemporal(sentences, image, metadata);
+  if (metadata.kind == "vector-mask") add_vectors(sentences, image, metadata);
   if (atlas || metadata.kind == "retarget-tile") add_moves(sentences, image, metadata);
   if (atlas && !metadata.tiles.empty()) {
     const int count = static_cast<int>(metadata.tiles.size()) / image.depth;

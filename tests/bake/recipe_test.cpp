@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{1, "version = ", {"allowed: TOML 1.0"}},
         Mistake{1,
                 "version = 1\ncolour = 3",
-                {"unknown key 'colour'", "contact_sheet, mask, retarget, spatiotemporal, version"},
+                {"unknown key 'colour'", "contact_sheet, mask, retarget, spatiotemporal, vector, version"},
                 2},
         Mistake{1, "version = 1\ncontact_sheet = 'a.jpg'", {"contact_sheet is 'a.jpg'", ".png"}, 2},
         Mistake{1, "version = 1\ncontact_sheet = 'm.png'", {"written already, by line 2"}, 6},

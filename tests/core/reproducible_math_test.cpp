@@ -1,4 +1,5 @@
-// Protects: e^x and ln x are accurate to their stated bounds, and their bits are these on every machine.
+// Protects: e^x, ln x, cosine and sine are accurate to their stated bounds, and their bits are these on every
+// machine.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -61,6 +62,35 @@ TEST(ReproducibleLog, GoldenBits) {
     hash = hash * 6364136223846793005u + std::bit_cast<std::uint64_t>(reproducible_log(0.01 * i));
   }
   EXPECT_EQ(hash, 9432366938592272686u);
+}
+
+TEST(ReproducibleTurn, WithinItsBoundOfLongDouble) {
+  for (int i = 0; i <= 100000; ++i) {
+    const double turns = i / 100000.0;
+    const long double angle = 2.0L * 3.14159265358979323846264338327950288L * turns;
+    const auto [cosine, sine] = reproducible_turn(turns);
+    ASSERT_NEAR(cosine, static_cast<double>(std::cos(angle)), 0x1p-52) << turns;
+    ASSERT_NEAR(sine, static_cast<double>(std::sin(angle)), 0x1p-52) << turns;
+  }
+}
+
+TEST(ReproducibleTurn, ExactAtQuarters) {
+  const double cosines[] = {1, 0, -1, 0, 1};
+  const double sines[] = {0, 1, 0, -1, 0};
+  for (int quarter = 0; quarter <= 4; ++quarter) {
+    EXPECT_EQ(reproducible_turn(quarter / 4.0).cosine, cosines[quarter]);
+    EXPECT_EQ(reproducible_turn(quarter / 4.0).sine, sines[quarter]);
+  }
+}
+
+TEST(ReproducibleTurn, GoldenBits) {
+  std::uint64_t hash = 0;
+  for (int i = 0; i < 10000; ++i) {
+    const auto [cosine, sine] = reproducible_turn(i / 10000.0);
+    hash = hash * 6364136223846793005u + std::bit_cast<std::uint64_t>(cosine);
+    hash = hash * 6364136223846793005u + std::bit_cast<std::uint64_t>(sine);
+  }
+  EXPECT_EQ(hash, 2035550970344375984u);
 }
 
 }  // namespace

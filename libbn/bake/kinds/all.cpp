@@ -12,7 +12,7 @@ namespace {
 
 std::vector<const Kind*>& registry() {
   static std::vector<const Kind*> shipped = {&baking::mask_kind(), &baking::spatiotemporal_kind(),
-                                             &baking::retarget_kind()};
+                                             &baking::vector_kind(), &baking::retarget_kind()};
   return shipped;
 }
 

@@ -9,5 +9,6 @@ namespace bn::baking {
 const Kind& mask_kind();
 const Kind& retarget_kind();
 const Kind& spatiotemporal_kind();
+const Kind& vector_kind();
 
 }  // namespace bn::baking

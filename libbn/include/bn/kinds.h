@@ -13,6 +13,7 @@
 #include "bn/retarget.h"
 #include "bn/retarget_anneal.h"
 #include "bn/spatiotemporal.h"
+#include "bn/vector_mask.h"
 
 namespace bn {
 
@@ -67,6 +68,29 @@ class SpatiotemporalEntry : public EntryOf<SpatiotemporalEntry, MaskOutput> {
   Metadata metadata(std::size_t output, const std::vector<Input>& inputs,
                     const std::filesystem::path& folder) const override;
   std::vector<std::string> file_kinds() const override { return {"spatiotemporal-mask"}; }
+};
+
+// --- vector masks ---------------------------------------------------------------------------------
+
+/// `[[vector]]`: a blue-noise mask of vectors or directions, a slice a frame.
+class VectorEntry : public EntryOf<VectorEntry, MaskOutput> {
+ public:
+  VectorMaskOptions vectors = {};
+
+  const Kind& kind() const override;
+  Options options() override;
+  void check(const Complain& complain) const override;
+  void default_output(std::size_t output) override;
+  Options output_options(std::size_t output) override;
+  SampleType output_type(std::size_t output) const override { return outputs.at(output).type; }
+  int output_channels(std::size_t output) const override;
+  std::optional<Shape> shape() const override { return vectors.mask.size; }
+  int output_depth(std::size_t, const std::vector<Shape>&) const override { return vectors.mask.size.depth; }
+  Cost cost(const std::vector<Shape>& input_shapes, const Execution& execution) const override;
+  Made make(const std::vector<Input>& inputs, const Execution& execution) const override;
+  Metadata metadata(std::size_t output, const std::vector<Input>& inputs,
+                    const std::filesystem::path& folder) const override;
+  std::vector<std::string> file_kinds() const override { return {"vector-mask"}; }
 };
 
 // --- retarget sets -------------------------------------------------------------------------------
