@@ -162,7 +162,7 @@ Verb pack_verb() {
       "and sample type.\n\n"
       "The extension of the output names the format: .png and .ktx2 hold up to 4 channels, .dds 1, 2 or 4 "
       "(of "
-      "floats also 3), .exr, .tif, .bin and .h up to 64. Volumes go to .ktx2, .dds, .bin, .h, or to a "
+      "floats also 3), .exr, .tif, .bin and .h up to 64. Volumes go to .ktx2, .dds, .exr, .bin, .h, or to a "
       "pattern.";
   verb.arguments.positional_list("FILE", settings->sources, channel_source(),
                                  "What to pack, in the order of the channels; FILE:N takes one channel.");

@@ -83,12 +83,15 @@ class Walk {
   ByteView rest_;
 };
 
-/// Channels: a name and 16 bytes each; an empty name ends them, exactly where the value ends.
+/// Channels: a name, the type of the samples and 12 bytes each; an empty name ends them, exactly where the
+/// value ends. There are three types; OpenImageIO ends the program at another one.
 bool is_channel_list(ByteView value) {
+  constexpr std::uint32_t kSampleTypes = 3;
   Walk walk(value);
   while (const auto name = walk.text()) {
     if (name->empty()) return walk.at_end();
-    if (!walk.skip(16)) return false;
+    const auto type = walk.number();
+    if (!type || *type >= kSampleTypes || !walk.skip(12)) return false;
   }
   return false;
 }

@@ -234,6 +234,19 @@ TEST(HostileHeader, ExrTypesThatEndElsewhereThanTheirLength) {
   EXPECT_NE(error->what.find("header"), std::string::npos) << error->what;
 }
 
+TEST(HostileHeader, ExrSampleTypes) {
+  // OpenImageIO aborts at a type that OpenEXR does not have.
+  const Bytes whole = valid_file("f.exr");
+  const std::string_view text(reinterpret_cast<const char*>(whole.data()), whole.size());
+  // Behind the value's length the name of the first channel, one letter.
+  const std::size_t type = text.find(std::string_view("channels\0chlist\0", 16)) + 16 + 4 + 2;
+  for (const std::uint32_t value : {3u, 4u, 0x80000000u, 0xffffffffu}) {
+    Bytes forged = whole;
+    std::memcpy(forged.data() + type, &value, 4);
+    EXPECT_FALSE(survives(forged)) << value;
+  }
+}
+
 TEST(HostileHeader, BinSizes) {
   for (const std::size_t member : {8u, 12u, 16u, 20u, 24u, 28u, 32u, 36u, 40u, 44u}) {
     for (const std::uint32_t value : {0u, 4u, 7u, 0x7fffffffu, 0xffffffffu}) {

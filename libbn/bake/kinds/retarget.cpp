@@ -35,10 +35,8 @@ const Kind& baking::retarget_kind() {
           "proof. Any image "
           "serves as a mask: 8 bit, 16 bit or float.\n\n"
           "With --to the next frame has another mask. A stack of slices (a folder, slice_%03d.png, .ktx2, "
-          ".dds, .bin, "
-          ".h) has a tile for each slice, to the next one, and the last to the first; with --volume true, "
-          "annealed, "
-          "seeds move between slices too.\n\n"
+          ".dds, .exr, .bin, .h) has a tile for each slice, to the next one, and the last to the first; with "
+          "--volume true, annealed, seeds move between slices too.\n\n"
           "With --motion N > 0 the printed energies are those of motion 0,0, optimal speaks for all, and "
           "--json lists "
           "every motion.",

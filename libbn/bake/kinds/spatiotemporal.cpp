@@ -29,9 +29,8 @@ const Kind& baking::spatiotemporal_kind() {
           "a pixel alone converges slower), stbn (slices and series, for no filter in particular). "
           "docs/spatiotemporal.md "
           "says which is for whom. Depth 1 makes one mask for a blur.\n\n"
-          "A file a slice needs a place for a number in the path, such as slice_%03d.png; .ktx2, .dds, .bin, "
-          ".h "
-          "hold all slices.",
+          "A file a slice needs a place for a number in the path, such as slice_%03d.png; .ktx2, .dds, .exr, "
+          ".bin and .h hold all slices.",
       .examples =
           {{"bn noise spatiotemporal --size 128x128x64 -o stbn/slice_%03d.png",
             "64 frames, a file each, in a folder of their own"},
