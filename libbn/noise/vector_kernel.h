@@ -2,8 +2,8 @@
 //
 // The energy of a mask is the sum over pairs of voxels of -A(i - j) d(v_i, v_j): A the weights of
 // volume_weights.h, d the distance of two values. Columns whose greatest weight is below 1/kLeastShare of the
-// greatest of all are left out. A Gaussian then ends at 3 standard deviations, 1 % of its sum is lost, and a
-// term in four of what volume_weights.h keeps is left, at the same quality (docs/vector_masks.md).
+// greatest of all are left out: a Gaussian then ends at 3 standard deviations, half of the columns are left,
+// and 1 % of the sum is lost.
 
 #pragma once
 

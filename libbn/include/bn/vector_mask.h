@@ -77,10 +77,11 @@ Grid<std::uint32_t> curve_mask(const VectorMaskOptions& options, const Execution
 /// what void-and-cluster lowers for thresholds. Distances and weights are integers: the same bytes on any
 /// number of threads and on any machine.
 /// Errors: invalid_input (an option outside its range), over_limit (memory), cancelled.
-/// Threads: execution.threads, useful up to (width * height / 128) / (columns of a block that sees no other,
-/// 25 for the default blur). Memory: at most 60 bytes a voxel.
-/// Cost: budget * voxels * the voxels that one sees (some 70 columns for the default blur): about
-/// 3 us a voxel and unit of budget at a depth of 32.
+/// Threads: execution.threads; a round has work for one thread in 40 of its voxels, and there are about
+/// width * height / 25 of them for the default blur.
+/// Memory: at most 60 bytes a voxel. A stop is heeded within milliseconds.
+/// Cost: in proportion to budget, voxels, and the voxels that one sees; about 5 us a voxel and unit of budget
+/// for the default filters at a depth of 32.
 Grid<std::uint32_t> vector_mask(const VectorMaskOptions& options, const Execution& execution = {});
 
 }  // namespace bn
