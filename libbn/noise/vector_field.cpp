@@ -1,8 +1,11 @@
 #include "noise/vector_field.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <utility>
+
+#include "core/reproducible_math.h"
 
 namespace bn::noise {
 
@@ -12,8 +15,26 @@ ScaledVector scaled_value(VectorValues values, std::uint32_t place) {
   return vector;
 }
 
-VectorField::VectorField(VectorValues values, const Grid<std::uint32_t>& places)
+namespace {
+
+/// 2^14 (1 - exp(-d^(dimensions / 2))), rounded, by floor(8192 d).
+std::vector<std::int32_t> georgiev_fajardo(int dimensions) {
+  std::vector<std::int32_t> table;
+  for (int i = 0; i <= 1 << 14; ++i) {
+    const double d = i / static_cast<double>(kDistanceScale);
+    const double power = (dimensions % 2 == 1 ? std::sqrt(d) : 1.0) * (dimensions >= 2 ? d : 1.0) *
+                         (dimensions == 4 ? d : 1.0);
+    table.push_back(
+        static_cast<std::int32_t>(std::floor((1 << 14) * (1.0 - reproducible_exp(-power)) + 0.5)));
+  }
+  return table;
+}
+
+}  // namespace
+
+VectorField::VectorField(VectorValues values, VectorEnergy energy, const Grid<std::uint32_t>& places)
     : size_(places.shape()), components_(vector_components(values)), stride_(stride_of(size_.depth)) {
+  if (energy == VectorEnergy::georgiev_fajardo) unlikeness_ = georgiev_fajardo(curve_dimensions(values));
   const std::size_t count = index(0, size_.height, 0);
   const auto allocate = [&]<class T>(hwy::AlignedFreeUniquePtr<T[]>& memory) {
     memory = hwy::AllocateAligned<T>(count);

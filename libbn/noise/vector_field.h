@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "bn/vector_mask.h"
 #include "noise/voxel.h"
@@ -21,7 +22,7 @@ using ScaledVector = std::array<float, 4>;
 
 class VectorField {
  public:
-  VectorField(VectorValues values, const Grid<std::uint32_t>& places);
+  VectorField(VectorValues values, VectorEnergy energy, const Grid<std::uint32_t>& places);
   static std::uint64_t bytes(VectorValues values, Shape size);
 
   Shape size() const { return size_; }
@@ -44,6 +45,10 @@ class VectorField {
   std::uint8_t cell(std::size_t index) const { return cells_[index]; }
   const std::uint8_t* cells() const { return cells_.get(); }
 
+  /// How unlike two values are, D of bn/vector_mask.h, 0..2^14: by their distance floor(8192 d), 0..2^14, or
+  /// the distance itself where there is no table.
+  const std::int32_t* unlikeness() const { return unlikeness_.empty() ? nullptr : unlikeness_.data(); }
+
   void exchange(std::size_t a, std::size_t b);
   Grid<std::uint32_t> places() const;
 
@@ -51,10 +56,14 @@ class VectorField {
   Shape size_;
   int components_;
   int stride_;
+  std::vector<std::int32_t> unlikeness_;
   std::array<hwy::AlignedFreeUniquePtr<float[]>, 4> components_of_;
   hwy::AlignedFreeUniquePtr<std::uint8_t[]> cells_;
   hwy::AlignedFreeUniquePtr<std::uint32_t[]> places_;
 };
+
+/// Dimensions of the curve of bn/vector_mask.h.
+int curve_dimensions(VectorValues values);
 
 /// vector_value(), scaled.
 ScaledVector scaled_value(VectorValues values, std::uint32_t place);

@@ -28,7 +28,7 @@ Grid<std::uint32_t> vector_mask(const VectorMaskOptions& options, const Executio
                    places.count() * sizeof(std::uint32_t),
                "vector mask");
   ProgressMeter meter(execution, static_cast<std::uint64_t>(options.budget * size.count()));
-  VectorField field(options.values, places);
+  VectorField field(options.values, options.energy, places);
   exchange_values(field, VectorKernel(VolumeWeights(sides, kernel)), options, execution, meter);
   meter.finish();
   return field.places();

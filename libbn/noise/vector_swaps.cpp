@@ -104,9 +104,9 @@ std::vector<int> partners(std::span<const float> far, int of, std::size_t stride
 std::int64_t exchange_gain(const VectorField& field, const VectorKernel& kernel, Voxel a, Voxel b) {
   const ScaledVector of_a = field.value(field.index(a));
   const ScaledVector of_b = field.value(field.index(b));
-  // Where they see each other, each sum has taken the other's distance for lost. It stays.
+  // Where they see each other, each sum has taken what is between them for lost. It stays.
   const std::int64_t kept = 2 * std::int64_t{kernel.weight(b.x - a.x, b.y - a.y, b.z - a.z)} *
-                            distance(of_a, of_b, field.components());
+                            unlikeness(of_a, of_b, field.components(), field.unlikeness());
   return gain(field, kernel, a, of_a, of_b) + gain(field, kernel, b, of_b, of_a) + kept;
 }
 
@@ -174,7 +174,7 @@ class Exchange {
     group.distances.resize(kCells * group.stride);
     group.seen.resize(count * kCells);
     group.far.resize(count * group.stride);
-    distances_from_cells(middles_, table, field_.components(), group.distances);
+    distances_from_cells(middles_, table, field_, group.distances);
   }
 
   void look_around(Group& group, std::size_t begin, std::size_t end) {

@@ -6,6 +6,8 @@
 // foreach_target.h must come first.
 #include <hwy/highway.h>
 
+#include <type_traits>
+
 #include "noise/vector_terms.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,24 +27,28 @@ void Estimate(std::span<const float> seen, std::span<const float> distances, int
   estimate_plainly(seen, distances, count, stride, far);
 }
 
-void FromCells(std::span<const ScaledVector> middles, const ValueTable& values, int components,
+void FromCells(std::span<const ScaledVector> middles, const ValueTable& values, const VectorField& field,
                std::span<float> distances) {
-  distances_from_cells_plainly(middles, values, components, distances);
+  distances_from_cells_plainly(middles, values, field, distances);
 }
 
 #else
 
-template <int kComponents, class D>
-HWY_INLINE hn::Vec<hn::RebindToSigned<D>> distances_to(D d, const hn::Vec<D>* values, const hn::Vec<D>* to) {
+/// unlikeness() of values; kTable: whether there is one.
+template <int kComponents, bool kTable, class D>
+HWY_INLINE hn::Vec<hn::RebindToSigned<D>> unlike(const hn::Vec<D>* values, const hn::Vec<D>* to,
+                                                 const std::int32_t* table) {
   auto square = hn::Mul(hn::Sub(to[0], values[0]), hn::Sub(to[0], values[0]));
   for (int k = 1; k < kComponents; ++k) {
     square = hn::Add(square, hn::Mul(hn::Sub(to[k], values[k]), hn::Sub(to[k], values[k])));
   }
-  (void)d;
-  return hn::ConvertTo(hn::RebindToSigned<D>(), hn::Sqrt(square));
+  const hn::RebindToSigned<D> di;
+  const auto distance = hn::ConvertTo(di, hn::Sqrt(square));
+  if constexpr (kTable) return hn::GatherIndex(di, table, distance);
+  return distance;
 }
 
-template <int kComponents, int kLanes>
+template <int kComponents, bool kTable, int kLanes>
 HWY_INLINE std::int64_t gain_of(const VectorField& field, const VectorKernel& kernel, Voxel at,
                                 const ScaledVector& from, const ScaledVector& to) {
   const hn::CappedTag<float, kLanes> d;
@@ -71,6 +77,7 @@ HWY_INLINE std::int64_t gain_of(const VectorField& field, const VectorKernel& ke
     products = 0;
   };
   const int slices = kernel.slices();
+  const std::int32_t* table = field.unlikeness();
   for_each_column(field, kernel, at, [&](const std::int32_t* line, std::size_t column) {
     for (int z = 0; z < slices; z += kStep) {
       Vector values[kComponents];
@@ -79,8 +86,8 @@ HWY_INLINE std::int64_t gain_of(const VectorField& field, const VectorKernel& ke
       if (z + kStep > slices) {
         weights = hn::IfThenElseZero(hn::FirstN(di, static_cast<std::size_t>(slices - z)), weights);
       }
-      const auto farther = hn::Sub(distances_to<kComponents>(d, values, new_value),
-                                   distances_to<kComponents>(d, values, old_value));
+      const auto farther = hn::Sub(unlike<kComponents, kTable, decltype(d)>(values, new_value, table),
+                                   unlike<kComponents, kTable, decltype(d)>(values, old_value, table));
       sum = hn::Add(sum, hn::Mul(weights, farther));
       if (++products == kMostProducts) flush();
     }
@@ -89,23 +96,28 @@ HWY_INLINE std::int64_t gain_of(const VectorField& field, const VectorKernel& ke
   return hn::GetLane(hn::SumOfLanes(wide, total));
 }
 
-template <int kComponents>
-HWY_INLINE std::int64_t gain_of(const VectorField& field, const VectorKernel& kernel, Voxel at,
-                                const ScaledVector& from, const ScaledVector& to) {
-  return field.stride() == 4 ? gain_of<kComponents, 4>(field, kernel, at, from, to)
-                             : gain_of<kComponents, 16>(field, kernel, at, from, to);
+/// Calls what(components, whether there is a table) with constants.
+template <class What>
+HWY_INLINE auto with_constants(const VectorField& field, const What& what) {
+  const auto by_table = [&](auto components) {
+    return field.unlikeness() ? what(components, std::true_type()) : what(components, std::false_type());
+  };
+  switch (field.components()) {
+    case 2:
+      return by_table(std::integral_constant<int, 2>());
+    case 3:
+      return by_table(std::integral_constant<int, 3>());
+    default:
+      return by_table(std::integral_constant<int, 4>());
+  }
 }
 
 std::int64_t Gain(const VectorField& field, const VectorKernel& kernel, Voxel at, const ScaledVector& from,
                   const ScaledVector& to) {
-  switch (field.components()) {
-    case 2:
-      return gain_of<2>(field, kernel, at, from, to);
-    case 3:
-      return gain_of<3>(field, kernel, at, from, to);
-    default:
-      return gain_of<4>(field, kernel, at, from, to);
-  }
+  return with_constants(field, [&](auto components, auto table) {
+    return field.stride() == 4 ? gain_of<components(), table(), 4>(field, kernel, at, from, to)
+                               : gain_of<components(), table(), 16>(field, kernel, at, from, to);
+  });
 }
 
 /// estimate() of kRows rows, two vectors of values at a time.
@@ -148,9 +160,9 @@ void Estimate(std::span<const float> seen, std::span<const float> distances, int
   }
 }
 
-template <int kComponents>
+template <int kComponents, bool kTable>
 HWY_INLINE void from_cells(std::span<const ScaledVector> middles, const ValueTable& values,
-                           std::span<float> distances) {
+                           const std::int32_t* table, std::span<float> distances) {
   const hn::CappedTag<float, 16> d;
   using Vector = hn::Vec<decltype(d)>;
   for (int j = 0; j < values.count(); j += static_cast<int>(hn::MaxLanes(d))) {
@@ -159,22 +171,18 @@ HWY_INLINE void from_cells(std::span<const ScaledVector> middles, const ValueTab
     for (std::size_t k = 0; k < middles.size(); ++k) {
       Vector middle[kComponents];
       for (int c = 0; c < kComponents; ++c) middle[c] = hn::Set(d, middles[k][static_cast<std::size_t>(c)]);
-      const auto coarse = hn::ShiftRight<kCellBits>(distances_to<kComponents>(d, value, middle));
+      const auto coarse =
+          hn::ShiftRight<kCellBits>(unlike<kComponents, kTable, decltype(d)>(value, middle, table));
       hn::StoreU(hn::ConvertTo(d, coarse), d, distances.data() + k * values.stride() + j);
     }
   }
 }
 
-void FromCells(std::span<const ScaledVector> middles, const ValueTable& values, int components,
+void FromCells(std::span<const ScaledVector> middles, const ValueTable& values, const VectorField& field,
                std::span<float> distances) {
-  switch (components) {
-    case 2:
-      return from_cells<2>(middles, values, distances);
-    case 3:
-      return from_cells<3>(middles, values, distances);
-    default:
-      return from_cells<4>(middles, values, distances);
-  }
+  with_constants(field, [&](auto components, auto table) {
+    from_cells<components(), table()>(middles, values, field.unlikeness(), distances);
+  });
 }
 
 #endif
@@ -205,8 +213,8 @@ std::int64_t gain_plainly(const VectorField& field, const VectorKernel& kernel, 
   for_each_column(field, kernel, at, [&](const std::int32_t* line, std::size_t column) {
     for (int z = 0; z < kernel.slices(); ++z) {
       const ScaledVector seen = field.value(column + static_cast<std::size_t>(z));
-      sum += std::int64_t{line[z]} *
-             (distance(to, seen, field.components()) - distance(from, seen, field.components()));
+      sum += std::int64_t{line[z]} * (unlikeness(to, seen, field.components(), field.unlikeness()) -
+                                      unlikeness(from, seen, field.components(), field.unlikeness()));
     }
   });
   return sum;
@@ -223,17 +231,17 @@ void estimate_plainly(std::span<const float> seen, std::span<const float> distan
   }
 }
 
-void distances_from_cells(std::span<const ScaledVector> middles, const ValueTable& values, int components,
-                          std::span<float> distances) {
-  HWY_DYNAMIC_DISPATCH(FromCells)(middles, values, components, distances);
+void distances_from_cells(std::span<const ScaledVector> middles, const ValueTable& values,
+                          const VectorField& field, std::span<float> distances) {
+  HWY_DYNAMIC_DISPATCH(FromCells)(middles, values, field, distances);
 }
 
 void distances_from_cells_plainly(std::span<const ScaledVector> middles, const ValueTable& values,
-                                  int components, std::span<float> distances) {
+                                  const VectorField& field, std::span<float> distances) {
   for (std::size_t k = 0; k < middles.size(); ++k) {
     for (std::size_t j = 0; j < static_cast<std::size_t>(values.count()); ++j) {
-      distances[k * values.stride() + j] =
-          static_cast<float>(distance(middles[k], values.value(j), components) >> kCellBits);
+      distances[k * values.stride() + j] = static_cast<float>(
+          unlikeness(middles[k], values.value(j), field.components(), field.unlikeness()) >> kCellBits);
     }
   }
 }

@@ -25,6 +25,13 @@ inline std::int32_t distance(const ScaledVector& a, const ScaledVector& b, int c
   return static_cast<std::int32_t>(std::sqrt(square));
 }
 
+/// D of two values; `table` as VectorField::unlikeness() gives it.
+inline std::int32_t unlikeness(const ScaledVector& a, const ScaledVector& b, int components,
+                               const std::int32_t* table) {
+  const std::int32_t d = distance(a, b, components);
+  return table ? table[d] : d;
+}
+
 /// Calls body(column's line, index of its slice 0) for the columns that a voxel sees.
 template <class Body>
 void for_each_column(const VectorField& field, const VectorKernel& kernel, Voxel at, const Body& body) {
@@ -38,8 +45,8 @@ void for_each_column(const VectorField& field, const VectorKernel& kernel, Voxel
   }
 }
 
-/// The sum over all n that the voxel sees of A(at - n) (d(to, v_n) - d(from, v_n)): how much farther from its
-/// surroundings it gets.
+/// The sum over all n that the voxel sees of A(at - n) (D(to, v_n) - D(from, v_n)): how much more it
+/// differs from its surroundings.
 std::int64_t gain(const VectorField& field, const VectorKernel& kernel, Voxel at, const ScaledVector& from,
                   const ScaledVector& to);
 std::int64_t gain_plainly(const VectorField& field, const VectorKernel& kernel, Voxel at,
@@ -80,12 +87,12 @@ class ValueTable {
 /// The middle value of each cell.
 std::vector<ScaledVector> cell_middles(VectorValues values);
 
-/// How far values are from the middle of each cell, floor(2^9 d), at most 2^10: of value j from cell k at
+/// How unlike values are to the middle of each cell, D / 2^kCellBits, at most 2^10: of value j to cell k at
 /// [k * stride + j].
-void distances_from_cells(std::span<const ScaledVector> middles, const ValueTable& values, int components,
-                          std::span<float> distances);
+void distances_from_cells(std::span<const ScaledVector> middles, const ValueTable& values,
+                          const VectorField& field, std::span<float> distances);
 void distances_from_cells_plainly(std::span<const ScaledVector> middles, const ValueTable& values,
-                                  int components, std::span<float> distances);
+                                  const VectorField& field, std::span<float> distances);
 
 /// How far values are from what voxels see. `seen` has a row of kCells for each voxel; far[i * stride + j]
 /// becomes the sum over k of seen[i][k] * distances[k * stride + j], for each of `count` values. All are

@@ -10,14 +10,16 @@
 #include "bn/space_filling_curve.h"
 #include "bn/vector_mask.h"
 #include "core/reproducible_math.h"
+#include "noise/vector_field.h"
 
 namespace bn {
 namespace {
 
 using Vector = std::array<double, 4>;
 
-/// Dimensions of the curve.
-int curve_dimensions(VectorValues values) {
+}  // namespace
+
+int noise::curve_dimensions(VectorValues values) {
   switch (values) {
     case VectorValues::vec3:
       return 3;
@@ -29,6 +31,8 @@ int curve_dimensions(VectorValues values) {
       return 2;
   }
 }
+
+namespace {
 
 Vector cube_point(int dimensions, std::uint32_t place) {
   const int bits = curve_bits(dimensions);
@@ -72,6 +76,10 @@ std::string_view name_of(VectorValues values) {
   return kNames[static_cast<std::size_t>(values)];
 }
 
+std::string_view name_of(VectorEnergy energy) {
+  return energy == VectorEnergy::half_spaces ? "half_spaces" : "georgiev_fajardo";
+}
+
 int vector_components(VectorValues values) {
   constexpr int kComponents[] = {2, 3, 4, 2, 3, 3};
   return kComponents[static_cast<std::size_t>(values)];
@@ -83,7 +91,7 @@ std::array<float, 4> vector_value(VectorValues values, std::uint32_t place) {
     const auto [cosine, sine] = reproducible_turn(std::ldexp(static_cast<double>(place), -32));
     vector = {cosine, sine};
   } else {
-    vector = cube_point(curve_dimensions(values), place);
+    vector = cube_point(noise::curve_dimensions(values), place);
     if (values == VectorValues::sphere) vector = octahedral(vector[0], vector[1]);
     if (values == VectorValues::hemisphere) vector = concentric(vector[0], vector[1]);
   }

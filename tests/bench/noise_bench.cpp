@@ -38,7 +38,8 @@ void BM_Reference(benchmark::State& state) {
 BENCHMARK(BM_Reference)->ArgName("side")->Arg(64)->Arg(128)->Arg(256)->Unit(benchmark::kMillisecond);
 
 VectorMaskOptions vector_options(VectorValues values, int side, int depth) {
-  VectorMaskOptions options{.values = values};
+  VectorMaskOptions options;
+  options.values = values;
   options.mask.size = {side, side, depth};
   options.mask.preset = SpatiotemporalPreset::filtered;
   return options;
@@ -49,7 +50,7 @@ void BM_VectorGain(benchmark::State& state) {
   const auto values = static_cast<VectorValues>(state.range(0));
   const VectorMaskOptions options = vector_options(values, 64, 32);
   const VectorKernel kernel(VolumeWeights({64, 64, 32, 1}, spatiotemporal_kernel(options.mask)));
-  const VectorField field(values, curve_mask(options));
+  const VectorField field(values, options.energy, curve_mask(options));
   const ScaledVector from = scaled_value(values, 123456789);
   const ScaledVector to = scaled_value(values, 3123456789);
   int at = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <utility>
@@ -24,32 +25,46 @@ inline std::vector<noise::Voxel> all_voxels(Shape size) {
   return voxels;
 }
 
-/// Of the places of a mask: minus the sum over pairs of weight times distance.
-inline std::int64_t reference_energy(VectorValues values, const Grid<std::uint32_t>& places,
+/// How unlike two values are.
+inline std::int64_t reference_unlikeness(const VectorMaskOptions& options, const noise::ScaledVector& a,
+                                         const noise::ScaledVector& b) {
+  const std::int32_t d = noise::distance(a, b, vector_components(options.values));
+  if (options.energy == VectorEnergy::half_spaces) return d;
+  const double dimensions = options.values == VectorValues::circle ? 1
+                            : options.values == VectorValues::vec3 ? 3
+                            : options.values == VectorValues::vec4 ? 4
+                                                                   : 2;
+  return std::lround(16384.0 * (1.0 - std::exp(-std::pow(d / 8192.0, dimensions / 2.0))));
+}
+
+/// Of the places of a mask: minus the sum over pairs of weight times unlikeness.
+inline std::int64_t reference_energy(const VectorMaskOptions& options, const Grid<std::uint32_t>& places,
                                      const noise::VectorKernel& kernel) {
   const std::vector<noise::Voxel> voxels = all_voxels(places.shape());
   std::vector<noise::ScaledVector> value;
-  for (const std::uint32_t place : places) value.push_back(noise::scaled_value(values, place));
+  for (const std::uint32_t place : places) value.push_back(noise::scaled_value(options.values, place));
   std::int64_t energy = 0;
   for (std::size_t i = 0; i < voxels.size(); ++i) {
     for (std::size_t j = i + 1; j < voxels.size(); ++j) {
       const auto [ax, ay, az] = voxels[i];
       const auto [bx, by, bz] = voxels[j];
       energy -= std::int64_t{kernel.weight(bx - ax, by - ay, bz - az)} *
-                noise::distance(value[i], value[j], vector_components(values));
+                reference_unlikeness(options, value[i], value[j]);
     }
   }
   return energy;
 }
 
 /// The part of it that two voxels have.
-inline std::int64_t reference_energy_of(VectorValues values, const Grid<std::uint32_t>& places,
+inline std::int64_t reference_energy_of(const VectorMaskOptions& options, const Grid<std::uint32_t>& places,
                                         const noise::VectorKernel& kernel, noise::Voxel a, noise::Voxel b) {
-  const auto value = [&](noise::Voxel v) { return noise::scaled_value(values, places(v.x, v.y, v.z)); };
+  const auto value = [&](noise::Voxel v) {
+    return noise::scaled_value(options.values, places(v.x, v.y, v.z));
+  };
   const auto is = [](noise::Voxel v, noise::Voxel w) { return v.x == w.x && v.y == w.y && v.z == w.z; };
   const auto pair = [&](noise::Voxel v, noise::Voxel w) {
     const std::int64_t weight = kernel.weight(w.x - v.x, w.y - v.y, w.z - v.z);
-    return weight == 0 ? 0 : -weight * noise::distance(value(v), value(w), vector_components(values));
+    return weight == 0 ? 0 : -weight * reference_unlikeness(options, value(v), value(w));
   };
   std::int64_t energy = 0;
   for (const noise::Voxel v : all_voxels(places.shape())) {
@@ -74,19 +89,19 @@ inline std::vector<std::int64_t> reference_seen(const Grid<std::uint32_t>& place
 }
 
 /// How far the value at a place is from each 256th of the curve.
-inline std::vector<std::int64_t> reference_distances(VectorValues values, std::uint32_t place) {
-  const noise::ScaledVector value = noise::scaled_value(values, place);
+inline std::vector<std::int64_t> reference_distances(const VectorMaskOptions& options, std::uint32_t place) {
+  const noise::ScaledVector value = noise::scaled_value(options.values, place);
   std::vector<std::int64_t> distances;
   for (std::uint32_t cell = 0; cell < 256; ++cell) {
-    const noise::ScaledVector middle = noise::scaled_value(values, (cell << 24) + (1u << 23));
-    distances.push_back(noise::distance(middle, value, vector_components(values)) / 16);
+    const noise::ScaledVector middle = noise::scaled_value(options.values, (cell << 24) + (1u << 23));
+    distances.push_back(reference_unlikeness(options, middle, value) / 16);
   }
   return distances;
 }
 
 /// One round: voxels in order take the free partner with whom they gain most by the estimate; pairs in order
 /// exchange if the energy falls.
-inline void reference_round(VectorValues values, Grid<std::uint32_t>& places,
+inline void reference_round(const VectorMaskOptions& options, Grid<std::uint32_t>& places,
                             const noise::VectorKernel& kernel, const noise::SwapRounds& rounds,
                             std::int64_t round) {
   const std::vector<noise::Voxel> all = rounds.voxels(round);
@@ -97,7 +112,7 @@ inline void reference_round(VectorValues values, Grid<std::uint32_t>& places,
     std::vector<std::vector<std::int64_t>> seen, distances;
     for (const noise::Voxel v : voxels) {
       seen.push_back(reference_seen(places, kernel, v));
-      distances.push_back(reference_distances(values, places(v.x, v.y, v.z)));
+      distances.push_back(reference_distances(options, places(v.x, v.y, v.z)));
     }
     const auto far = [&](std::size_t i, std::size_t j) {
       return std::inner_product(seen[i].begin(), seen[i].end(), distances[j].begin(), std::int64_t{0});
@@ -118,9 +133,9 @@ inline void reference_round(VectorValues values, Grid<std::uint32_t>& places,
   }
   // By the lower index of each pair, as they were formed.
   for (const auto& [a, b] : pairs) {
-    const std::int64_t before = reference_energy_of(values, places, kernel, a, b);
+    const std::int64_t before = reference_energy_of(options, places, kernel, a, b);
     std::swap(places(a.x, a.y, a.z), places(b.x, b.y, b.z));
-    if (reference_energy_of(values, places, kernel, a, b) >= before) {
+    if (reference_energy_of(options, places, kernel, a, b) >= before) {
       std::swap(places(a.x, a.y, a.z), places(b.x, b.y, b.z));
     }
   }
@@ -134,7 +149,7 @@ inline Grid<std::uint32_t> reference_vector_mask(const VectorMaskOptions& option
   const noise::SwapRounds rounds(kernel, size, options.mask.ranks, options.mask.seed);
   if (rounds.count() < 2) return places;
   for (std::int64_t round = 0; round * rounds.count() < options.budget * size.count(); ++round) {
-    reference_round(options.values, places, kernel, rounds, round);
+    reference_round(options, places, kernel, rounds, round);
   }
   return places;
 }

@@ -16,9 +16,9 @@ using namespace noise;
 
 // Names a failing case.
 void PrintTo(const VectorMaskOptions& o, std::ostream* out) {
-  *out << name_of(o.values) << " " << o.mask.size.width << "x" << o.mask.size.height << "x"
-       << o.mask.size.depth << " " << name_of(o.mask.preset) << " budget " << o.budget << " seed "
-       << o.mask.seed;
+  *out << name_of(o.values) << " " << name_of(o.energy) << " " << o.mask.size.width << "x"
+       << o.mask.size.height << "x" << o.mask.size.depth << " " << name_of(o.mask.preset) << " budget "
+       << o.budget << " seed " << o.mask.seed;
 }
 
 namespace {
@@ -26,7 +26,9 @@ namespace {
 VectorMaskOptions with(VectorValues values, Shape size, std::int64_t budget,
                        SpatiotemporalPreset preset = SpatiotemporalPreset::filtered,
                        RankScope ranks = RankScope::slice) {
-  VectorMaskOptions options{.values = values, .budget = budget};
+  VectorMaskOptions options;
+  options.values = values;
+  options.budget = budget;
   options.mask.size = size;
   options.mask.preset = preset;
   options.mask.ranks = ranks;
@@ -37,7 +39,7 @@ VectorMaskOptions with(VectorValues values, Shape size, std::int64_t budget,
 std::vector<VectorMaskOptions> option_sets() {
   using V = VectorValues;
   using P = SpatiotemporalPreset;
-  return {
+  std::vector<VectorMaskOptions> sets = {
       with(V::vec2, {12, 10, 1}, 3),
       with(V::vec2, {9, 11, 2}, 3, P::both),
       with(V::vec3, {13, 12, 3}, 2),
@@ -52,6 +54,11 @@ std::vector<VectorMaskOptions> option_sets() {
       with(V::sphere, {2, 2, 1}, 5),
       with(V::vec2, {1, 1, 1}, 5),
   };
+  for (const V values : {V::vec2, V::vec3, V::vec4, V::circle}) {
+    sets.push_back(with(values, {10, 9, 3}, 2, P::stbn));
+    sets.back().energy = VectorEnergy::georgiev_fajardo;
+  }
+  return sets;
 }
 
 VectorKernel kernel_of(const VectorMaskOptions& options) {
@@ -87,9 +94,10 @@ TEST_P(VectorInstructionSets, SumsEqualPlainOnes) {
   // More slices than a vector has lanes, and some left over.
   for (const int depth : {1, 3, 16, 37}) {
     for (const VectorValues values : {VectorValues::vec2, VectorValues::sphere, VectorValues::vec4}) {
+      const VectorEnergy energy = depth % 2 == 0 ? VectorEnergy::half_spaces : VectorEnergy::georgiev_fajardo;
       const VectorMaskOptions options = with(values, {16, 12, depth}, 0);
       const VectorKernel kernel = kernel_of(options);
-      const VectorField field(values, curve_mask(options));
+      const VectorField field(values, energy, curve_mask(options));
       const ScaledVector from = scaled_value(values, 123456789);
       const ScaledVector to = scaled_value(values, 3123456789);
       std::vector<ScaledVector> some;
@@ -101,8 +109,8 @@ TEST_P(VectorInstructionSets, SumsEqualPlainOnes) {
       const ValueTable table(some);
       const std::vector<ScaledVector> middles = cell_middles(values);
       std::vector<float> fast(kCells * table.stride()), plain(fast);
-      distances_from_cells(middles, table, field.components(), fast);
-      distances_from_cells_plainly(middles, table, field.components(), plain);
+      distances_from_cells(middles, table, field, fast);
+      distances_from_cells_plainly(middles, table, field, plain);
       std::vector<float> seen, far(11 * table.stride()), plain_far(far);
       for (std::size_t i = 0; i < 11 * kCells; ++i)
         seen.push_back(static_cast<float>(random_bits(1, 0, i) % 64));
@@ -123,16 +131,16 @@ TEST(VectorMask, GainIsTheFallOfTheEnergy) {
     if (options.mask.size.count() > 500) continue;
     const VectorKernel kernel = kernel_of(options);
     Grid<std::uint32_t> places = curve_mask(options);
-    const VectorField field(options.values, places);
+    const VectorField field(options.values, options.energy, places);
     const std::vector<Voxel> voxels = all_voxels(places.shape());
-    const std::int64_t before = reference_energy(options.values, places, kernel);
+    const std::int64_t before = reference_energy(options, places, kernel);
     for (std::uint64_t i = 0; i < 20; ++i) {
       const std::size_t a = random_bits(2, 0, i) % voxels.size();
       const std::size_t b = random_bits(2, 1, i) % voxels.size();
       if (a == b) continue;
       std::swap(places[a], places[b]);
       ASSERT_EQ(exchange_gain(field, kernel, voxels[a], voxels[b]),
-                before - reference_energy(options.values, places, kernel));
+                before - reference_energy(options, places, kernel));
       std::swap(places[a], places[b]);
     }
   }
@@ -166,8 +174,7 @@ TEST(VectorMask, KeepsTheValuesOfEachSlice) {
   Grid<std::uint32_t> after = vector_mask(options);
   EXPECT_NE(before, after);
   const VectorKernel kernel = kernel_of(options);
-  EXPECT_LT(reference_energy(options.values, after, kernel),
-            reference_energy(options.values, before, kernel));
+  EXPECT_LT(reference_energy(options, after, kernel), reference_energy(options, before, kernel));
   for (int z = 0; z < 4; ++z) {
     std::sort(before.slice(z).begin(), before.slice(z).end());
     std::sort(after.slice(z).begin(), after.slice(z).end());
@@ -178,7 +185,7 @@ TEST(VectorMask, KeepsTheValuesOfEachSlice) {
 TEST(VectorMask, EqualValuesAreNotExchanged) {
   const VectorMaskOptions options = with(VectorValues::vec3, {24, 24, 2}, 2);
   const Grid<std::uint32_t> same(options.mask.size, 1u << 30);
-  VectorField field(options.values, same);
+  VectorField field(options.values, options.energy, same);
   const VectorKernel kernel = kernel_of(options);
   EXPECT_EQ(exchange_gain(field, kernel, {0, 0, 0}, {1, 0, 0}), 0);
   ProgressMeter meter({}, 1);

@@ -105,6 +105,10 @@ Options VectorEntry::options() {
                           {"sphere", Values::sphere},
                           {"hemisphere", Values::hemisphere}},
                          "What a pixel has: a point of the unit square or cube, or a direction.");
+  options.choice<VectorEnergy>(
+      "energy", vectors.energy,
+      {{"half_spaces", VectorEnergy::half_spaces}, {"georgiev_fajardo", VectorEnergy::georgiev_fajardo}},
+      "How unlike two values are: how often half-spaces part them, or as Georgiev and Fajardo have it.");
   add_filter_options(options, vectors.mask,
                      "Whether values are spread evenly in each slice, or in all of them together.");
   options.integer("budget", vectors.budget, 0, kMostVectorBudget,
@@ -153,6 +157,7 @@ Metadata VectorEntry::metadata(std::size_t, const std::vector<Input>&, const std
   metadata.kind = "vector-mask";
   metadata.facts.add("seed", vectors.mask.seed);
   metadata.facts.add("values", name_of(vectors.values));
+  metadata.facts.add("energy", name_of(vectors.energy));
   metadata.facts.add("preset", name_of(vectors.mask.preset));
   metadata.facts.add("slices", vectors.mask.size.depth);
   metadata.facts.add("ranks", vectors.mask.ranks == RankScope::slice ? "slice" : "volume");

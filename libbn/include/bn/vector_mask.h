@@ -49,9 +49,19 @@ std::array<float, 4> vector_value(VectorValues values, std::uint32_t place);
 
 // --- masks -----------------------------------------------------------------------------------------
 
+/// How unlike two values are, by their distance d.
+enum class VectorEnergy {
+  half_spaces,  ///< d: how often a random half-space, of any direction and offset, parts them
+  /// 1 - exp(-d^(n/2)), n the dimensions of the values (circle 1, sphere and hemisphere 2): Georgiev and
+  /// Fajardo 2016. Theirs in all is with the preset stbn and sigma_px 2.1 / sqrt(2).
+  georgiev_fajardo,
+};
+std::string_view name_of(VectorEnergy energy);  ///< "half_spaces", "georgiev_fajardo"
+
 /// What a vector mask is made from. Equal options give equal masks, everywhere.
 struct VectorMaskOptions {
   VectorValues values = VectorValues::vec2;
+  VectorEnergy energy = VectorEnergy::half_spaces;
   /// Size, filters, ranks, seed and the kernel's constants. `ranks` slice: the values of each slice are
   /// spread evenly, one in each of width * height equal stretches of the curve; volume: those of all slices
   /// together.
@@ -70,16 +80,14 @@ Grid<std::uint32_t> curve_mask(const VectorMaskOptions& options, const Execution
 /// curve_mask(), then values exchanged between voxels, of a slice or of the volume (`ranks`), whenever that
 /// lowers the energy
 ///
-///   - sum over pairs i < j of A(i - j) |v_i - v_j|
+///   - sum over pairs i < j of A(i - j) D(v_i, v_j)
 ///
-/// A the kernel of spatiotemporal_kernel(). |v_i - v_j| is how often a random half-space, of any direction
-/// and offset, parts the two values, so the energy is the mean over all half-planes, half-spaces or caps of
-/// what void-and-cluster lowers for thresholds. Distances and weights are integers: the same bytes on any
-/// number of threads and on any machine.
-/// Errors: invalid_input (an option outside its range), over_limit (memory), cancelled.
-/// Threads: execution.threads; a round has work for one thread in 40 of its voxels, and there are about
-/// width * height / 25 of them for the default blur.
-/// Memory: at most 60 bytes a voxel. A stop is heeded within milliseconds.
+/// A the kernel of spatiotemporal_kernel(), D by VectorEnergy. With half_spaces the energy is, but for a
+/// constant, the mean over all half-planes, half-spaces or caps of what void-and-cluster lowers for
+/// thresholds. Distances and weights are integers: the same bytes on any number of threads and on any
+/// machine. Errors: invalid_input (an option outside its range), over_limit (memory), cancelled. Threads:
+/// execution.threads; a round has work for one thread in 40 of its voxels, and there are about width * height
+/// / 25 of them for the default blur. Memory: at most 60 bytes a voxel. A stop is heeded within milliseconds.
 /// Cost: in proportion to budget, voxels, and the voxels that one sees; about 5 us a voxel and unit of budget
 /// for the default filters at a depth of 32.
 Grid<std::uint32_t> vector_mask(const VectorMaskOptions& options, const Execution& execution = {});
