@@ -17,6 +17,7 @@ Verb study_anneal_verb();
 Verb study_convergence_verb();
 Verb study_fft_verb();
 Verb study_presets_verb();
+Verb study_search_verb();
 Verb study_temporal_verb();
 Verb validate_verb();
 Verb verify_verb();
@@ -32,8 +33,8 @@ std::vector<Verb> all_verbs() {
     }
   }
   for (auto make : {pack_verb, info_verb, verify_verb, spectrum_verb, report_verb, study_anneal_verb,
-                    study_convergence_verb, study_fft_verb, study_presets_verb, study_temporal_verb,
-                    validate_verb, completion_verb, help_verb}) {
+                    study_convergence_verb, study_fft_verb, study_presets_verb, study_search_verb,
+                    study_temporal_verb, validate_verb, completion_verb, help_verb}) {
     verbs.push_back(make());
   }
   return verbs;

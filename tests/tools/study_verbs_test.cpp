@@ -71,6 +71,16 @@ TEST_F(StudyVerbs, ConvergenceRefusesBeforeTheWork) {
   EXPECT_FALSE(stands("out"));
 }
 
+TEST_F(StudyVerbs, SearchComparesByTime) {
+  const ProcessResult result =
+      run({"search", "--size", "16x16", "--slices", "4", "--tries", "4,1", "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Json rows = Json::parse(result.out);
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows.at(0).at("method"), "stbn");
+  EXPECT_LT(rows.at(4).at("first_error"), rows.at(3).at("first_error"));
+}
+
 TEST_F(StudyVerbs, PresetsPrintsTheEndsOfTheCurve) {
   const ProcessResult result = run({"presets", "--size", "16x16", "--frames", "4", "-o", "out"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
