@@ -86,7 +86,7 @@ TEST_F(BadInput, OutOfRangeOptions) {
 
 TEST_F(BadInput, ListsAreExplainedAsACommandLineWritesThem) {
   expect_failure(1, {"noise", "void-and-cluster", "--size", "64x", "-o", "x.png"},
-                 {"'64x' cannot be read (allowed: WIDTHxHEIGHT, each 1..16384 pixels); write it like"});
+                 {"'64x' cannot be read (allowed: WIDTHxHEIGHT, each 1..16384 pixels; one number is a square); write it like"});
   expect_failure(1, {"retarget", "x.png", "--step", "5"},
                  {"(allowed: X,Y|auto, two whole numbers, or auto)"});
   expect_failure(1, {"retarget", "x.png", "--weights", "0"},
